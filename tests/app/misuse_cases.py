@@ -92,6 +92,8 @@ OPTIONS = [
     Case("torque of the command line before torques of a file", r"", "{elastogear} simulate both_torques.yaml -analysis sweep -torque 50", kind="good",
          leaves=r"kept_run\.h5"),
     Case("table in a unit of something else", r"duty_in_s.csv, line 2: .*'s' is no unit of it, write N mm", "{elastogear} life drive.yaml -duty_cycle duty_in_s.csv -sn_knee_stress 1e8"),
+    Case("option of another verb", r"option -result belongs to recover and evaluate; life does not read it", "{elastogear} life drive.yaml -result kept.h5"),
+    Case("option of the verb of a life", r"option -duty_cycle belongs to life; run does not read it", "{elastogear} run drive.yaml -duty_cycle 1,2"),
     Case("table with two separators", r"two_separators.csv, line 1: '5 1e6' must be a number without a unit", "{elastogear} life drive.yaml -duty_cycle two_separators.csv -sn_knee_stress 1e8"),
     Case("unit of what has none", r"revolutions_in_h.csv, line 2: '1e6 h' must be a number without a unit", "{elastogear} life drive.yaml -duty_cycle revolutions_in_h.csv -sn_knee_stress 1e8"),
     Case("table with a field too many", r"two_fields.csv, line 4: must be two numbers", "{hinged} -a_torque table,two_fields.csv"),
