@@ -209,6 +209,13 @@ def a_stiffer_drive_is_the_same(lab):
     same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", other), force=by, share=EXACT)
 
 
+def pressures(chain):
+    """Pa, of the contacts of all positions, but for those that roundoff makes where nothing is loaded."""
+    force, pressure = (chain.lab.read(f"{chain.name}.h5", f"contact/{chain.pair}/points/{name}") for name in ("force", "pressure"))
+    size = np.linalg.norm(force, axis=1)
+    return pressure[size > 1e-9 * size.max()]
+
+
 def a_rigid_gear_is_the_limit_of_a_stiff_one(lab):
     """A gear without elastic coordinates does what one of a material a thousand million times as stiff as steel does, in contact and to
     the stresses of its mate, and has no stresses itself."""
@@ -226,7 +233,7 @@ def a_rigid_gear_is_the_limit_of_a_stiff_one(lab):
     alike("transmission error", other.transmission_error(), one.transmission_error(), SAME)
     alike("normal force", other.value("force/value"), one.value("force/value"), SAME)
     alike("line load", other.value("line_load/value"), one.value("line_load/value"), SAME)
-    alike("pressure at the stations", *(chain.lab.read(f"{chain.name}.h5", f"contact/{chain.pair}/points/pressure") for chain in (other, one)), SAME)
+    alike("pressure at the stations", *(pressures(chain) for chain in (other, one)), SAME)
     elastic = 1 - gears.index(body)
     alike("root stress of the elastic gear", other.stresses()[elastic], one.stresses()[elastic], SAME)
     lab.run("recover", "other.yaml", "-result", "other.h5", "-output", "stress.h5")
