@@ -13,7 +13,7 @@ import os
 import numpy as np
 
 from drive_runs import results
-from spur_pair_calculix import DRIVE, E, NAMES, PROFILE, Elastogear, Mesh, pairs_of, run, turn, write_deck
+from spur_pair_calculix import DRIVE, E, NAMES, PROFILE, Elastogear, Mesh, pairs_of, run, write_deck
 
 WIDTH, LAYERS = 14e-3, 16  # m, of the wheel
 
