@@ -51,4 +51,17 @@ double mesh_error(const std::vector<double>& value, const std::vector<double>& r
   return std::max(of_two_meshes(change, fine), of_two_meshes(before, coarse) / std::pow(fine, kOrder));
 }
 
+// Eq. (10.18)
+void raise_to_median(const std::vector<double>& figure, std::vector<double>& error) {
+  require(figure.size() == error.size(), "there must be an error for each figure");
+  std::vector<double> share;
+  for (std::size_t i = 0; i < figure.size(); ++i)
+    if (figure[i] != 0 && error[i] > 0) share.push_back(error[i] / std::abs(figure[i]));
+  if (share.empty()) return;
+  const auto median = share.begin() + static_cast<std::ptrdiff_t>(share.size() / 2);
+  std::nth_element(share.begin(), median, share.end());
+  for (std::size_t i = 0; i < figure.size(); ++i)
+    if (error[i] > 0) error[i] = std::max(error[i], *median * std::abs(figure[i]));
+}
+
 }  // namespace elastogear::evaluation

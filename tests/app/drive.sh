@@ -40,7 +40,7 @@ done
 # Hexahedra of 20 nodes, whose midside nodes are on the exact flanks as well.
 second=(-pinion_file second_1.h5 -wheel_file second_2.h5)
 run mesh spur.yaml -element_order 2 -pinion_mesh_output second_1.msh -wheel_mesh_output second_2.msh -drawing second.svg
-grep -q "elements  *2312" log && grep -q "nodes  *13362" log || { cat log; exit 1; }
+grep -q "elements  *2720" log && grep -q "nodes  *15776" log || { cat log; exit 1; }
 run reduce spur.yaml "${second[@]}" -element_order 2 -modes 1 -store surface
 run simulate spur.yaml -roll 0.125 "${second[@]}" -pinion_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1 \
   -output second.h5 -verbose

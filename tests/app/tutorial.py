@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What docs/tutorial.md and README.md show is what the program prints: the drive of section 1, the meshes and the wheel's body of section 2.
+"""What docs/tutorial.md, docs/evaluation.md and README.md show is what the program prints: the drive of section 1, the meshes and the wheel's
+body of section 2.
 
     tutorial.py PATH/TO/elastogear PATH/TO/docs/tutorial.md"""
 import os
@@ -14,6 +15,8 @@ with open(sys.argv[2], encoding="utf-8") as file:
     page = file.read()
 with open(os.path.join(os.path.dirname(sys.argv[2]), "..", "README.md"), encoding="utf-8") as file:
     readme = file.read()
+with open(os.path.join(os.path.dirname(sys.argv[2]), "evaluation.md"), encoding="utf-8") as file:
+    evaluation = file.read()
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
@@ -78,4 +81,7 @@ with tempfile.TemporaryDirectory() as work:
     check(shown(readme, "It prints\n\n"), command, output)
     write("drive.yaml", re.sub(r"^wheel:.*\n", askew, drive, flags=re.MULTILINE))
     check(shown(page.split("skew: 0.02 deg")[1], "    elastogear drive.yaml\n"), command, run(command))
+    write("drive.yaml", drive)
+    command = "elastogear drive.yaml -size tiny -report none"
+    check(shown(evaluation, "README's pair at size tiny:\n\n"), command, run(command))
 print("all good")

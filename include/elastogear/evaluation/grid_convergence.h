@@ -10,4 +10,9 @@ namespace elastogear::evaluation {
 /// numbers of cells along a line, up to a factor that they share. Throws Error unless these ascend.
 double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement);
 
+/// Raises each error to the median share, Eq. (10.18), of figures on the same meshes: the change of one
+/// figure between two meshes may pass through zero, those of half of them do not. figure, error: of equal
+/// length, an error each in the units of its figure.
+void raise_to_median(const std::vector<double>& figure, std::vector<double>& error);
+
 }  // namespace elastogear::evaluation

@@ -147,6 +147,12 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, share < 1 ? "%.2g %%" : "%.0f %%", 100 * share);
+  return text;
+}
+
 std::string in_mm(double length) { return with_unit(1e3 * length, "mm"); }
 
 std::string duration(double seconds) {

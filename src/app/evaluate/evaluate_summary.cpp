@@ -148,8 +148,6 @@ std::string place_in_mm(double length) {
   return std::string(text) == "-0.0 mm" ? "0.0 mm" : text;
 }
 
-std::string whole_percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
-
 std::string place_of_root(const RootPeak& peak, const Surroundings& about) {
   const std::string group = peak.path.substr(0, peak.path.rfind('/'));
   return "tooth " + short_number(peak.part("_tooth")) + ", root of the " +
@@ -178,8 +176,8 @@ void print_limit(const RootPeak& peak, const Surroundings& about) {
   const Cause* most = &kCauses[0];
   for (const Cause& cause : kCauses)
     if (peak.part(cause.item) > peak.part(most->item)) most = &cause;
-  print_item("  limited by", std::string(most->name) + ", " + whole_percent(peak.part(most->item) / all) +
-                                 " of the error of " + whole_percent(all / std::abs(peak.value())) + " at " +
+  print_item("  limited by", std::string(most->name) + ", " + percent(peak.part(most->item) / all) +
+                                 " of the error of " + percent(all / std::abs(peak.value())) + " at " +
                                  peak.gear + "; smaller by " + remedy(*most, peak, about));
 }
 

@@ -52,21 +52,33 @@ double value_on(const CoarserMesh& mesh, const std::string& path) {
   return item->value[0];
 }
 
-EvaluationItem error_item(const std::vector<CoarserMesh>& coarser, const std::string& group,
-                          const EvaluationItem& item, double refinement) {
+double error_of(const std::vector<CoarserMesh>& coarser, const std::string& path, double finest,
+                double refinement) {
   std::vector<double> value, refinements;
   for (const CoarserMesh& mesh : coarser) {
-    value.push_back(value_on(mesh, group + item.path));
+    value.push_back(value_on(mesh, path));
     refinements.push_back(mesh.refinement);
   }
-  value.push_back(item.value[0]);
+  value.push_back(finest);
   refinements.push_back(refinement);
-  return {item.path + kErrorEnd,
-          item.unit,
-          "estimated error by the mesh, from coarser ones",
-          {},
-          {evaluation::mesh_error(value, refinements)},
-          {}};
+  return evaluation::mesh_error(value, refinements);
+}
+
+// Of the figures of a pair of gears; group: the path of the pair in coarser files.
+std::vector<EvaluationItem> error_items(const std::vector<CoarserMesh>& coarser, const std::string& group,
+                                        const std::vector<EvaluationItem>& items, double refinement) {
+  std::vector<EvaluationItem> errors;
+  std::vector<double> figure, error;
+  for (const EvaluationItem& item : items) {
+    if (!item.shape.empty() || !item.words.empty() || !depends_on_mesh(item.path)) continue;
+    figure.push_back(item.value[0]);
+    error.push_back(error_of(coarser, group + item.path, item.value[0], refinement));
+    errors.push_back(
+        {item.path + kErrorEnd, item.unit, "estimated error by the mesh, from coarser ones", {}, {}, {}});
+  }
+  evaluation::raise_to_median(figure, error);
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i].value = {error[i]};
+  return errors;
 }
 
 // Replaces the item that has the same path, or appends a new one.
@@ -93,11 +105,7 @@ void add_mesh_errors(const std::vector<std::string>& files, double refinement,
   for (CaseFigures& of : cases)
     for (PairFigures& pair : of.pairs) {
       const std::string group = of.of.name + "/" + pair.pair + "/";
-      std::vector<EvaluationItem> errors;
-      for (const EvaluationItem& item : pair.items)
-        if (item.shape.empty() && item.words.empty() && depends_on_mesh(item.path))
-          errors.push_back(error_item(coarser, group, item, refinement));
-      for (EvaluationItem& error : errors) {
+      for (EvaluationItem& error : error_items(coarser, group, pair.items, refinement)) {
         // Meshes resolve the contact as finely as the body: the change between them has both.
         const std::string figure = error.path.substr(0, error.path.size() - std::strlen(kErrorEnd));
         std::erase_if(pair.items,

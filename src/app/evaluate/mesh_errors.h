@@ -8,7 +8,7 @@
 
 namespace elastogear::app {
 
-/// Adds its estimated error to each figure that the mesh changes, Eq. (10.15) to (10.17), as an item
+/// Adds its estimated error to each figure that the mesh changes, Eq. (10.15) to (10.18), as an item
 /// `PATH_mesh_error`, in place of one that is there and of that by the contact's resolution. coarser:
 /// evaluation files of the same cases, the coarsest mesh first; refinement: of the cases' own meshes. Throws
 /// Error naming a file that has not these figures.

@@ -37,12 +37,6 @@ std::string remedy(const recovery::RecoveredBody& body) {
   return "reduce the body with more modes (-modes)";
 }
 
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, share < 1 ? "%.2g %%" : "%.0f %%", 100 * share);
-  return text;
-}
-
 void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) {
   const auto [node, step] = peak(set.von_mises);
   if (set.error.size() == 0)

@@ -189,7 +189,7 @@ std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
 }
 
 // Nothing can be captured along a direction in which all nodes are held.
-std::string percent(const Eigen::RowVectorXd& shares) {
+std::string percent_of_each(const Eigen::RowVectorXd& shares) {
   std::string text;
   for (double share : shares) {
     char number[32] = "none";
@@ -202,16 +202,17 @@ std::string percent(const Eigen::RowVectorXd& shares) {
 // Tables of a row per mode are left to the file.
 void print_check(const model::Check& check) {
   if (check.name == "captured_mass") {
-    print_item("mass captured, x y z rx ry rz", percent(check.value.row(0)) + " of what all modes carry");
-    print_item("", percent(check.value.row(1)) + " of the body's");
+    print_item("mass captured, x y z rx ry rz",
+               percent_of_each(check.value.row(0)) + " of what all modes carry");
+    print_item("", percent_of_each(check.value.row(1)) + " of the body's");
   } else if (check.name == "rigid_coupling") {
     print_item("coupling to rigid motions", "at most " + with_unit(check.value.maxCoeff(), ""));
   } else if (check.name == "static_completeness") {
     Eigen::Index worst = 0, best = 0;
     const double low = check.value.col(0).minCoeff(&worst), high = check.value.col(0).maxCoeff(&best);
     print_item("static completeness",
-               percent(Eigen::RowVectorXd::Constant(1, low)) + " (" + check.row[worst] + ") to " +
-                   percent(Eigen::RowVectorXd::Constant(1, high)) + " (" + check.row[best] + ")");
+               percent_of_each(Eigen::RowVectorXd::Constant(1, low)) + " (" + check.row[worst] + ") to " +
+                   percent_of_each(Eigen::RowVectorXd::Constant(1, high)) + " (" + check.row[best] + ")");
   }
 }
 

@@ -77,12 +77,6 @@ bool chooses_mesh(const Options& given, const RunOnMesh& of, const Drive& drive)
   return is_at_rest(of);
 }
 
-std::string percent_of(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
-  return text;
-}
-
 double number_on_rank_0(const std::function<double()>& number) {
   double value = 0;
   collectively(PETSC_COMM_WORLD, [&] {
@@ -121,7 +115,7 @@ bool ends_here(int mesh, double error, double accuracy, double seconds) {
   const bool reached = error < 0 || error <= accuracy;
   const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, seconds);
   std::ostringstream said;
-  said << percent_of(error) << " of the largest tension at a root by estimate, " << percent_of(accuracy)
+  said << percent(error) << " of the largest tension at a root by estimate, " << percent(accuracy)
        << " asked; counts " << kRefinements[mesh] << " times those of size tiny";
   if (!obstacle.empty()) said << "; not reached: " << obstacle;
   if (error < 0)
@@ -131,7 +125,7 @@ bool ends_here(int mesh, double error, double accuracy, double seconds) {
   return reached || !obstacle.empty();
 }
 
-// Refines from size tiny on, Eq. (10.15) to (10.17). All meshes but the last have their files in folders.
+// Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
 void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
   for (int mesh = 0; mesh < kMeshes; ++mesh) {

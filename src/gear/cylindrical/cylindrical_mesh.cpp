@@ -26,7 +26,8 @@ Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, i
 
 WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size,
                                int order) {
-  constexpr double kWidth = 8;  // modules, which the layers of a size are for
+  constexpr double kWidth = 8;      // modules, which the layers of a size are for
+  constexpr int kLeastColumns = 2;  // of half a space: cells of the root land as long as those of the fillet
   WheelCounts n = wheel_counts(size, order);
   n.web_growth = 0;
   const Blank& b = g.blank[i];
@@ -37,6 +38,7 @@ WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeome
     constexpr double kSlender = 3;  // columns that a row may be high
     return std::max(1, static_cast<int>(std::lround(std::abs(outer - inner) / 2 / (kSlender * column))));
   };
+  if (order == 2) n.space = std::max(n.space, kLeastColumns);
   if (!b.has_web()) {
     n.web_layers = layers;
     n.ring = rows(b.rim_diameter, b.end_diameter());
