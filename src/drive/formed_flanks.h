@@ -1,9 +1,9 @@
 #pragma once
 // Charts of flanks that are no involutes share this base: a distance is found by projection onto the chart.
 
-#include "app/surface/exact_flanks.h"
+#include "drive/charts.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 
 class FormedFlanks : public contact::ExactFlanks {
  public:
@@ -27,4 +27,4 @@ class FormedFlanks : public contact::ExactFlanks {
   Extent extent_{};
 };
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "app/surface/formed_flanks.h"
+#include "drive/formed_flanks.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 namespace {
 
 using Eigen::Index;
@@ -78,7 +78,7 @@ class HobbedFlanks : public FormedFlanks {
       : FormedFlanks(toothing, deviations) {
     const double end = t_.half_face;
     const gear::FlankEnds middle = t_.ends(0);
-    extent_ = {0, middle.r_a - middle.r_form, true, kEdgeRadius * module(t_)};
+    extent_ = {0, middle.r_a - middle.r_form, true, kEdgeRadius * normal_module(t_)};
     tip_ = t_.ends(end).r_a;
     std::vector<double> limits{-end, 0, end};
     if (t_.crease > 0 && t_.crease < end) limits = {-end, -t_.crease, 0, t_.crease, end};
@@ -156,4 +156,4 @@ std::shared_ptr<const contact::ExactFlanks> hobbed_flanks(
   return std::make_shared<HobbedFlanks>(toothing, deviations);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

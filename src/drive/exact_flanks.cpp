@@ -1,10 +1,10 @@
-#include "app/surface/exact_flanks.h"
+#include "drive/charts.h"
 
 #include <cmath>
 
-namespace elastogear::app {
+namespace elastogear::drive {
 
-double module(const gear::Toothing& t) { return 2 * t.r / t.z * std::cos(std::atan(t.r / t.p)); }
+double normal_module(const gear::Toothing& t) { return 2 * t.r / t.z * std::cos(std::atan(t.r / t.p)); }
 
 std::shared_ptr<const contact::ExactFlanks> exact_flanks(
     const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers) {
@@ -12,4 +12,4 @@ std::shared_ptr<const contact::ExactFlanks> exact_flanks(
   return layers == Layers::axial ? thread_flanks(toothing, deviations) : hobbed_flanks(toothing, deviations);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

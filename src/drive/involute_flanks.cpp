@@ -1,11 +1,11 @@
-#include "app/surface/exact_flanks.h"
+#include "drive/charts.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "elastogear/gear/flank.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 namespace {
 
 class InvoluteFlanks : public contact::ExactFlanks {
@@ -14,7 +14,7 @@ class InvoluteFlanks : public contact::ExactFlanks {
                  Layers layers)
       : t_(toothing), deviations_(deviations), layers_(layers) {
     const double form = arc(t_.r_form), tip = arc(t_.r_a);
-    extent_ = {std::min(form, tip), std::max(form, tip), !t_.internal, kEdgeRadius * module(t_)};
+    extent_ = {std::min(form, tip), std::max(form, tip), !t_.internal, kEdgeRadius * normal_module(t_)};
   }
 
   int teeth() const override { return t_.z; }
@@ -95,4 +95,4 @@ std::shared_ptr<const contact::ExactFlanks> involute_flanks(
   return std::make_shared<InvoluteFlanks>(toothing, deviations, layers);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

@@ -3,16 +3,16 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "app/surface/formed_flanks.h"
+#include "drive/formed_flanks.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 namespace {
 
 class ThreadFlanks : public FormedFlanks {
  public:
   ThreadFlanks(const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations)
       : FormedFlanks(toothing, deviations), psi_0_(gear::psi(toothing, toothing.r_form)) {
-    extent_ = {t_.r_form, t_.r_a, true, kEdgeRadius * module(t_)};
+    extent_ = {t_.r_form, t_.r_a, true, kEdgeRadius * normal_module(t_)};
   }
 
   // A profile in an axial section: its angle does not depend on v, which is the radius.
@@ -44,4 +44,4 @@ std::shared_ptr<const contact::ExactFlanks> thread_flanks(
   return std::make_shared<ThreadFlanks>(toothing, deviations);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

@@ -1,4 +1,4 @@
-#include "app/surface/formed_flanks.h"
+#include "drive/formed_flanks.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -6,7 +6,7 @@
 
 #include "elastogear/gear/flank.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -51,4 +51,4 @@ contact::FlankPoint FormedFlanks::with_normal(const Vector3d& x, const Vector3d&
   return {x, -side * x_v.cross(x_z).normalized(), x_v, x_z};
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

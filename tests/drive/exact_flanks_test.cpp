@@ -1,6 +1,6 @@
 // Charts of exact flanks of worm drives: on the flanks, with their derivatives, normals and distances.
 
-#include "app/surface/exact_flanks.h"
+#include "elastogear/drive/exact_flanks.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "../gear/worm_designs.h"
 #include "elastogear/gear/flank.h"
 
-namespace elastogear::app::exact_flanks_test {
+namespace elastogear::drive::exact_flanks_test {
 namespace {
 
 using contact::FlankName;
@@ -86,4 +86,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace elastogear::app::exact_flanks_test
+}  // namespace elastogear::drive::exact_flanks_test

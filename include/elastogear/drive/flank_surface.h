@@ -1,0 +1,45 @@
+#pragma once
+// The exact flanks of gear data behind the faces of a meshed gear.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "elastogear/contact/true_surface.h"
+#include "elastogear/drive/exact_flanks.h"
+
+namespace elastogear::drive {
+
+/// The teeth of a body.
+struct Teeth {
+  gear::Toothing toothing;
+  std::optional<gear::FlankDeviations> deviations = {};  ///< of the flanks; nothing: they are exact
+  Layers layers = Layers::transverse;
+};
+
+/// m, how far a node may be from its flank: meshes are exact to 1e-9, and files may round to single
+/// precision.
+inline constexpr double kOnFlank = 1e-6;
+
+/// A node of a flank.
+struct OffNode {
+  double distance = 0;  ///< m, from its flank
+  int node = -1;        ///< mesh number; -1: no face belongs to a flank
+  std::string group;
+};
+
+/// The node of all flanks that is farthest from its flank. A body may have been meshed with its deviations or
+/// without them.
+OffNode farthest_node(const Teeth& teeth, const model::Surface& surface);
+
+/// Heights of the flanks over the faces of a surface.
+struct FlankHeights {
+  std::vector<contact::ExactHeights> height = {};  ///< by face, empty ones where it belongs to no flank
+  int n_faces = 0;                                 ///< that have some
+  double error = 0;  ///< m, the most by which polynomials over the faces miss flanks with deviations
+};
+
+/// Heights of all flanks (docs/theory, section 6.8). with_error: `error` is found, too.
+FlankHeights flank_heights(const Teeth& teeth, const model::Surface& surface, bool with_error);
+
+}  // namespace elastogear::drive
