@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "elastogear/base/error.h"
 
@@ -30,6 +31,12 @@ double observed_order(double changes, double coarse, double fine) {
   return low;
 }
 
+double median(std::vector<double> values) {
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  return values.size() % 2 == 1 ? *upper : (*upper + *std::max_element(values.begin(), upper)) / 2;
+}
+
 }  // namespace
 
 double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement) {
@@ -54,14 +61,12 @@ double mesh_error(const std::vector<double>& value, const std::vector<double>& r
 // Eq. (10.18)
 void raise_to_median(const std::vector<double>& figure, std::vector<double>& error) {
   require(figure.size() == error.size(), "there must be an error for each figure");
-  std::vector<double> share;
+  std::vector<double> shares;
   for (std::size_t i = 0; i < figure.size(); ++i)
-    if (figure[i] != 0 && error[i] > 0) share.push_back(error[i] / std::abs(figure[i]));
-  if (share.empty()) return;
-  const auto median = share.begin() + static_cast<std::ptrdiff_t>(share.size() / 2);
-  std::nth_element(share.begin(), median, share.end());
-  for (std::size_t i = 0; i < figure.size(); ++i)
-    if (error[i] > 0) error[i] = std::max(error[i], *median * std::abs(figure[i]));
+    if (const double share = error[i] / std::abs(figure[i]); std::isfinite(share)) shares.push_back(share);
+  if (shares.empty()) return;
+  const double least = median(std::move(shares));
+  for (std::size_t i = 0; i < figure.size(); ++i) error[i] = std::max(error[i], least * std::abs(figure[i]));
 }
 
 }  // namespace elastogear::evaluation

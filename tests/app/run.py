@@ -67,6 +67,9 @@ def accurate():
     assert "largest_tension_contact_error" not in pair["root"]["pinion"]
     for group, name in (("transmission_error", "peak_to_peak"), ("stiffness", "secant_mean"), ("line_load", "KHbeta")):
         assert name + "_mesh_error" in pair[group], f"{group}/{name} has no error"
+    shares = {name: pair["stiffness"][name + "_mesh_error"]["value"] / pair["stiffness"][name]["value"] for name in ("secant_mean", "secant_per_width")}
+    assert abs(shares["secant_mean"] - shares["secant_per_width"]) < 1e-9, shares
+    assert pair["teeth"]["largest_share"]["value"] == 1 and "largest_share_mesh_error" not in pair["teeth"], pair["teeth"]
     assert made(run("accurate.yaml")) == (False, False)
     # A finer mesh where that is asked; the coarser ones are there.
     finer = run("accurate.yaml", "-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))

@@ -37,7 +37,7 @@ def allowed(source, target):
     """May module `source` include module `target`?"""
     if source == target:
         return True
-    if source in ("drive", "app", "python"):
+    if source in ("app", "python"):
         return LEVEL[target] < LEVEL[source]
     halves = {source, target}
     if halves & BUILDING and halves & RUNNING:

@@ -11,11 +11,16 @@
 
 namespace elastogear::drive {
 
-/// What the layers of a mesh are along its faces.
-enum class Layers { transverse, axial };
+/// Which sections of a gear the layers of its mesh are.
+enum class Layers {
+  transverse,  ///< across the axis, as of cylindrical gears and wheels
+  axial        ///< cylinders about the axis have their places on the flank, as of worms
+};
 
-/// z is the place of a transverse section, or for axial ones, as of worms, where a cylinder about the axis
-/// has it: an axial section has one z. v of involutes is their arc length, v of others goes with the radius.
+/// Charts of all flanks of a gear, in its own frame, whose z is its axis. A chart's z (m) is the place of a
+/// transverse section, or of axial layers where a cylinder about the axis has it: an axial section has one z.
+/// Its v (m) is the arc length of involutes, and of other flanks goes with the radius. deviations: of the
+/// flanks along their normals; nothing: they are those of the design. Never null.
 std::shared_ptr<const contact::ExactFlanks> exact_flanks(
     const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers);
 

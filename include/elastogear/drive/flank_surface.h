@@ -1,5 +1,6 @@
 #pragma once
-// The exact flanks of gear data behind the faces of a meshed gear.
+// The exact flanks of gear data behind the faces of a meshed gear. Surfaces are in the frame of the gear
+// data, whose z is the axis.
 
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "elastogear/contact/true_surface.h"
 #include "elastogear/drive/exact_flanks.h"
+#include "elastogear/model/elastic_body.h"
 
 namespace elastogear::drive {
 
@@ -14,7 +16,7 @@ namespace elastogear::drive {
 struct Teeth {
   gear::Toothing toothing;
   std::optional<gear::FlankDeviations> deviations = {};  ///< of the flanks; nothing: they are exact
-  Layers layers = Layers::transverse;
+  Layers layers = Layers::transverse;                    ///< of its mesh
 };
 
 /// m, how far a node may be from its flank: meshes are exact to 1e-9, and files may round to single
@@ -25,7 +27,7 @@ inline constexpr double kOnFlank = 1e-6;
 struct OffNode {
   double distance = 0;  ///< m, from its flank
   int node = -1;        ///< mesh number; -1: no face belongs to a flank
-  std::string group;
+  std::string group;    ///< face set of that flank, as tooth_01_left
 };
 
 /// The node of all flanks that is farthest from its flank. A body may have been meshed with its deviations or
@@ -36,7 +38,7 @@ OffNode farthest_node(const Teeth& teeth, const model::Surface& surface);
 struct FlankHeights {
   std::vector<contact::ExactHeights> height = {};  ///< by face, empty ones where it belongs to no flank
   int n_faces = 0;                                 ///< that have some
-  double error = 0;  ///< m, the most by which polynomials over the faces miss flanks with deviations
+  double error = 0;  ///< m, the most by which polynomials over the faces miss flanks with deviations; 0: none
 };
 
 /// Heights of all flanks (docs/theory, section 6.8). with_error: `error` is found, too.

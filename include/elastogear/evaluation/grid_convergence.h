@@ -12,7 +12,8 @@ double mesh_error(const std::vector<double>& value, const std::vector<double>& r
 
 /// Raises each error to the median share, Eq. (10.18), of figures on the same meshes: the change of one
 /// figure between two meshes may pass through zero, those of half of them do not. figure, error: of equal
-/// length, an error each in the units of its figure.
+/// length and in the same units; figures of zero have no share and keep their error. Throws Error for other
+/// lengths.
 void raise_to_median(const std::vector<double>& figure, std::vector<double>& error);
 
 }  // namespace elastogear::evaluation

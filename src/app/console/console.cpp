@@ -149,7 +149,8 @@ std::string short_number(double value) {
 
 std::string percent(double share) {
   char text[32];
-  std::snprintf(text, sizeof text, share < 1 ? "%.2g %%" : "%.0f %%", 100 * share);
+  constexpr double kTwoDigits = 0.0995;  // from which on whole percents have two digits or more
+  std::snprintf(text, sizeof text, std::abs(share) < kTwoDigits ? "%.2g %%" : "%.0f %%", 100 * share);
   return text;
 }
 

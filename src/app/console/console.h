@@ -38,7 +38,7 @@ bool is_silenced();
 std::string with_unit(double value, const std::string& unit);
 /// Number in three significant digits, without an exponent from 1000 on.
 std::string short_number(double value);
-/// A share in percent, to two digits where it is below 100 %.
+/// A share in percent: two digits below 10 %, whole percents above.
 std::string percent(double share);
 /// with_unit of a length in m, in mm.
 std::string in_mm(double length);

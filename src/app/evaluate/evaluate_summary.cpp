@@ -52,7 +52,8 @@ std::string word(const Items& items, const std::string& path) {
 
 // With an error the last digit of a number is the second one of the error.
 int decimals_of(double error) {
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 3);
+  constexpr int kMost = 9;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, kMost);
 }
 
 std::string with_decimals(double value, int decimals) {
@@ -162,7 +163,8 @@ std::string remedy(const Cause& cause, const RootPeak& peak, const Surroundings&
   if (item == "_time_error") return "a smaller -step_error";
   if (about.chosen_by_accuracy) {
     char text[48];
-    std::snprintf(text, sizeof text, "-accuracy \"%.1g %%\"", 50 * error_of(peak) / std::abs(peak.value()));
+    const double half = 50 * error_of(peak) / std::abs(peak.value());
+    std::snprintf(text, sizeof text, half < 9.5 ? "-accuracy \"%.1g %%\"" : "-accuracy \"%.0f %%\"", half);
     return text;
   }
   if (!find_item(*peak.items, "time"))

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
+#include <map>
+#include <optional>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -17,20 +18,25 @@ using io::EvaluationItem;
 constexpr const char *kErrorEnd = "_mesh_error", *kContactErrorEnd = "_contact_error";
 constexpr const char* kRootTension = "/largest_tension";
 
-// Figures that the mesh changes, beside those of roots.
-constexpr const char* kOfMesh[] = {"transmission_error/mean",       "transmission_error/peak_to_peak",
-                                   "stiffness/secant_mean",         "stiffness/secant_per_width",
-                                   "stiffness/secant_peak_to_peak", "stiffness/tangent_mean",
-                                   "stiffness/tangent_per_width",   "teeth/contact_ratio",
-                                   "teeth/largest_share",           "line_load/KHbeta",
-                                   "pressure/hertz_peak",           "losses/loss_factor"};
+// Figures that the mesh changes, beside those of roots and stiffnesses per width.
+constexpr const char* kOfMesh[] = {"transmission_error/mean", "transmission_error/peak_to_peak",
+                                   "stiffness/secant_mean",   "stiffness/secant_peak_to_peak",
+                                   "stiffness/tangent_mean",  "teeth/contact_ratio",
+                                   "teeth/largest_share",     "line_load/KHbeta",
+                                   "pressure/hertz_peak",     "losses/loss_factor"};
 constexpr const char* kOfRoots[] = {kRootTension, "/largest_von_mises", "/range"};
+constexpr const char *kMean = "_mean", *kPerWidth = "_per_width";  // of a stiffness
 
-bool depends_on_mesh(const std::string& path) {
-  if (path.starts_with("root/"))
-    return std::any_of(std::begin(kOfRoots), std::end(kOfRoots),
-                       [&](const char* end) { return path.ends_with(end); });
-  return std::find(std::begin(kOfMesh), std::end(kOfMesh), path) != std::end(kOfMesh);
+// Figures of a class, one stress of all roots or the rest, have errors of a kind; empty: the mesh does not
+// change it. A share of 1 is one of a single pair of teeth.
+std::string class_of(const EvaluationItem& item) {
+  if (!item.shape.empty() || !item.words.empty()) return "";
+  if (item.path.starts_with("root/"))
+    for (const char* end : kOfRoots)
+      if (item.path.ends_with(end)) return end;
+  const bool whole = item.path == "teeth/largest_share" && item.value[0] == 1;
+  const bool found = std::find(std::begin(kOfMesh), std::end(kOfMesh), item.path) != std::end(kOfMesh);
+  return found && !whole ? "drive" : "";
 }
 
 double refinement_of(const io::EvaluationFile& evaluation, const std::string& file) {
@@ -46,17 +52,20 @@ struct CoarserMesh {
   io::EvaluationFile evaluation;
 };
 
-double value_on(const CoarserMesh& mesh, const std::string& path) {
-  const EvaluationItem* item = find_item(mesh.evaluation.items, path);
-  require(item && item->value.size() == 1, mesh.file, ": has no figure ", path);
-  return item->value[0];
+void require_pair(const CoarserMesh& mesh, const std::string& group) {
+  const bool found = std::any_of(mesh.evaluation.items.begin(), mesh.evaluation.items.end(),
+                                 [&](const EvaluationItem& item) { return item.path.starts_with(group); });
+  require(found, mesh.file, ": has no figures of ", group.substr(0, group.size() - 1));
 }
 
-double error_of(const std::vector<CoarserMesh>& coarser, const std::string& path, double finest,
-                double refinement) {
+// Nothing where a coarser mesh has not the figure.
+std::optional<double> error_of(const std::vector<CoarserMesh>& coarser, const std::string& path,
+                               double finest, double refinement) {
   std::vector<double> value, refinements;
   for (const CoarserMesh& mesh : coarser) {
-    value.push_back(value_on(mesh, path));
+    const EvaluationItem* item = find_item(mesh.evaluation.items, path);
+    if (!item || item->value.size() != 1) return {};
+    value.push_back(item->value[0]);
     refinements.push_back(mesh.refinement);
   }
   value.push_back(finest);
@@ -64,20 +73,47 @@ double error_of(const std::vector<CoarserMesh>& coarser, const std::string& path
   return evaluation::mesh_error(value, refinements);
 }
 
+// Figures of a class and their errors.
+struct Class {
+  std::vector<const EvaluationItem*> item;
+  std::vector<double> figure, error;
+};
+
+EvaluationItem error_item(const EvaluationItem& item, double error) {
+  return {
+      item.path + kErrorEnd, item.unit, "estimated error by the mesh, from coarser ones", {}, {error}, {}};
+}
+
+// A stiffness per width is one over the face width: its error is as large a share.
+void add_per_width(const std::vector<EvaluationItem>& items, std::vector<EvaluationItem>& errors) {
+  for (const EvaluationItem& item : items) {
+    if (!item.path.ends_with(kPerWidth)) continue;
+    const std::string mean = item.path.substr(0, item.path.size() - std::strlen(kPerWidth)) + kMean;
+    const EvaluationItem *whole = find_item(items, mean), *error = find_item(errors, mean + kErrorEnd);
+    if (whole && error && whole->value[0] != 0)
+      errors.push_back(error_item(item, error->value[0] * item.value[0] / whole->value[0]));
+  }
+}
+
 // Of the figures of a pair of gears; group: the path of the pair in coarser files.
 std::vector<EvaluationItem> error_items(const std::vector<CoarserMesh>& coarser, const std::string& group,
                                         const std::vector<EvaluationItem>& items, double refinement) {
-  std::vector<EvaluationItem> errors;
-  std::vector<double> figure, error;
+  for (const CoarserMesh& mesh : coarser) require_pair(mesh, group);
+  std::map<std::string, Class> classes;
   for (const EvaluationItem& item : items) {
-    if (!item.shape.empty() || !item.words.empty() || !depends_on_mesh(item.path)) continue;
-    figure.push_back(item.value[0]);
-    error.push_back(error_of(coarser, group + item.path, item.value[0], refinement));
-    errors.push_back(
-        {item.path + kErrorEnd, item.unit, "estimated error by the mesh, from coarser ones", {}, {}, {}});
+    const std::string name = class_of(item);
+    const auto error =
+        name.empty() ? std::nullopt : error_of(coarser, group + item.path, item.value[0], refinement);
+    if (!error) continue;
+    Class& of = classes[name];
+    of.item.push_back(&item), of.figure.push_back(item.value[0]), of.error.push_back(*error);
   }
-  evaluation::raise_to_median(figure, error);
-  for (std::size_t i = 0; i < errors.size(); ++i) errors[i].value = {error[i]};
+  std::vector<EvaluationItem> errors;
+  for (auto& [name, of] : classes) {
+    evaluation::raise_to_median(of.figure, of.error);
+    for (std::size_t i = 0; i < of.item.size(); ++i) errors.push_back(error_item(*of.item[i], of.error[i]));
+  }
+  add_per_width(items, errors);
   return errors;
 }
 
@@ -117,15 +153,21 @@ void add_mesh_errors(const std::vector<std::string>& files, double refinement,
 
 double root_error(const std::string& file) {
   const io::EvaluationFile evaluation = io::read_evaluation(file);
-  double largest = -1;
+  std::map<std::string, const EvaluationItem*> largest;  // by case and gear, of all its pairs
   for (const EvaluationItem& item : evaluation.items) {
     if (!item.path.ends_with(kRootTension)) continue;
-    const EvaluationItem* by_mesh = find_item(evaluation.items, item.path + kErrorEnd);
-    if (!by_mesh || !(item.value[0] > 0)) continue;
-    const double error = std::max(by_mesh->value[0], whole_error(evaluation.items, item.path));
-    largest = std::max(largest, error / item.value[0]);
+    const EvaluationItem*& known =
+        largest[item.path.substr(0, item.path.find('/')) + item.path.substr(item.path.find("/root/"))];
+    if (!known || item.value[0] > known->value[0]) known = &item;
   }
-  return largest;
+  double worst = -1;
+  for (const auto& [gear, item] : largest) {
+    const EvaluationItem* by_mesh = find_item(evaluation.items, item->path + kErrorEnd);
+    if (!by_mesh || !(item->value[0] > 0)) continue;
+    const double error = std::max(by_mesh->value[0], whole_error(evaluation.items, item->path));
+    worst = std::max(worst, error / item->value[0]);
+  }
+  return worst;
 }
 
 }  // namespace elastogear::app

@@ -10,13 +10,14 @@ namespace elastogear::app {
 
 /// Adds its estimated error to each figure that the mesh changes, Eq. (10.15) to (10.18), as an item
 /// `PATH_mesh_error`, in place of one that is there and of that by the contact's resolution. coarser:
-/// evaluation files of the same cases, the coarsest mesh first; refinement: of the cases' own meshes. Throws
-/// Error naming a file that has not these figures.
+/// evaluation files of the same cases, the coarsest mesh first; refinement: of the cases' own meshes. Figures
+/// that a coarser mesh has not get none. Throws Error naming a file that has none of a pair of gears, or does
+/// not say how fine its mesh is.
 void add_mesh_errors(const std::vector<std::string>& coarser, double refinement,
                      std::vector<CaseFigures>& cases);
 
-/// The largest estimated error of the largest tension at a root, as a share of it, over all cases, pairs and
-/// gears of an evaluation file; < 0: there is none.
+/// The largest estimated error of the largest tension at the root of a gear, as a share of it, over all cases
+/// and gears of an evaluation file; < 0: there is none.
 double root_error(const std::string& evaluation);
 
 }  // namespace elastogear::app

@@ -11,6 +11,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
+#include "elastogear/drive/exact_flanks.h"
 #include "elastogear/drive/flank_surface.h"
 
 namespace elastogear::app {
