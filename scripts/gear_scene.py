@@ -20,6 +20,7 @@ import pictures
 import results
 import scene
 from page import fields
+from views import axis_of, diagonal, fitted_view, unit
 
 ASPECT = 1.25  # of a panel
 WIDTH, HEIGHT = 1800, 860
@@ -50,7 +51,7 @@ class Body:
         self.surface, self.stress, self.scale = pictures.stress_surface(path, scale)
 
     def axis(self):
-        return pictures.axis_of(self.points)
+        return axis_of(self.points)
 
 
 def mesh_point(bodies):
@@ -66,12 +67,12 @@ class Views:
         points = np.vstack([body.points for body in bodies])
         axis = bodies[1].axis()
         centre = bodies[1].points.mean(axis=0)
-        up = pictures.unit(mesh_point(bodies) - centre - axis * (axis @ (mesh_point(bodies) - centre)))
+        up = unit(mesh_point(bodies) - centre - axis * (axis @ (mesh_point(bodies) - centre)))
         axis = axis if axis[2] >= 0 else -axis
-        direction = pictures.unit(axis + TILT * np.cross(up, axis) + 0.5 * TILT * up)
-        up = pictures.unit(up - direction * (direction @ up))
-        self.whole = pictures.fitted_view(points, direction, up, ASPECT)
-        size = pictures.diagonal(points)
+        direction = unit(axis + TILT * np.cross(up, axis) + 0.5 * TILT * up)
+        up = unit(up - direction * (direction @ up))
+        self.whole = fitted_view(points, direction, up, ASPECT)
+        size = diagonal(points)
         self.near = scene.View(mesh_point(bodies), size * direction, up, NEAR * size)
 
 
@@ -157,7 +158,7 @@ def flank_actors(body_file, body, pattern):
     places = np.column_stack([np.hypot(frame[:, 0], frame[:, 1]), frame[:, 2]])
     pictures.colour_by(flank, at_places(radii, z, pressure, places))
     corners = body.points[faces]
-    normal = pictures.unit(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]).sum(axis=0))
+    normal = unit(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]).sum(axis=0))
     axis = body.axis()
     table = scene.colour_table(pictures.round_down(pressure.max() / 5) * np.ceil(pressure.max() / pictures.round_down(pressure.max() / 5)))
     actor = scene.scalar_actor(flank, table, edges=False)
@@ -165,11 +166,11 @@ def flank_actors(body_file, body, pattern):
     actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2)
     undeformed = pictures.surface_of(body.data)
     points = pictures.points_of(flank)
-    outward = pictures.unit(points.mean(axis=0) - body.points.mean(axis=0) - axis * (axis @ (points.mean(axis=0) - body.points.mean(axis=0))))
-    direction = pictures.unit(normal + 0.4 * outward)
-    view = pictures.fitted_view(points, direction, pictures.unit(outward - direction * (direction @ outward)), ASPECT)
+    outward = unit(points.mean(axis=0) - body.points.mean(axis=0) - axis * (axis @ (points.mean(axis=0) - body.points.mean(axis=0))))
+    direction = unit(normal + 0.4 * outward)
+    view = fitted_view(points, direction, unit(outward - direction * (direction @ outward)), ASPECT)
     view.half_height *= MARGIN
-    view.direction = view.direction / np.linalg.norm(view.direction) * pictures.diagonal(body.points)
+    view.direction = view.direction / np.linalg.norm(view.direction) * diagonal(body.points)
     return [scene.plain_actor(undeformed, scene.GREY, 1), scene.crease_actor(undeformed), actor], view, table, f"{name.replace('_', ', ')} flank, tooth {tooth}"
 
 
