@@ -62,10 +62,10 @@ class TurnedFaces {
     const double unit = kRoundoff * std::max(toothing_.r_a, toothing_.r_f);
     const Eigen::AngleAxisd back(-gear::tooth_angle(toothing_, flank.tooth), Eigen::Vector3d::UnitZ());
     Key key{flank.side};
-    for (int c = 0; c < 4; ++c) {
-      const Eigen::Vector3d x = back * Eigen::Vector3d(surface.X.col(surface.face(c, f))) / unit;
-      for (int i = 0; i < 3; ++i) key[static_cast<std::size_t>(1 + 3 * c + i)] = std::llround(x[i]);
-    }
+    auto entry = key.begin() + 1;
+    for (int c = 0; c < 4; ++c)
+      for (const double x : Eigen::Vector3d(back * Eigen::Vector3d(surface.X.col(surface.face(c, f))) / unit))
+        *entry++ = std::llround(x);
     return first_.emplace(key, f).first->second;
   }
 
