@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
@@ -71,8 +72,8 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
           farthest.group, ", is ", farthest.distance, " m off the flank of this gear data, allowed is ",
           drive::kOnFlank, " m: name the files that the body was meshed from by -", body,
           "_flanks, or mesh it anew");
-  const drive::FlankHeights heights = drive::flank_heights(teeth, surface, !is_silenced());
-  known.height = heights.height;
+  drive::FlankHeights heights = drive::flank_heights(teeth, surface, !is_silenced());
+  known.height = std::move(heights.height);
   known.flanks = drive::exact_flanks(teeth.toothing, teeth.deviations, teeth.layers);
   print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
                                         with_unit(farthest.distance, "m") + " of " + file);
