@@ -151,8 +151,10 @@ std::vector<std::vector<Face>> cell_sides(CellType type, std::span<const int> no
 }
 
 std::vector<Face> cell_faces(CellType type, std::span<const int> nodes) {
+  const auto& sides = local_sides(type);
   std::vector<Face> faces;
-  for (const auto& side : local_sides(type))
+  faces.reserve(sides.size() * sides.back().size());
+  for (const auto& side : sides)
     for (const Face& face : side) faces.push_back(global(face, nodes));
   return faces;
 }

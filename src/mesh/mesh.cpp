@@ -1,21 +1,13 @@
 #include "elastogear/mesh/mesh.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <numeric>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 
 namespace elastogear::mesh {
 namespace {
-
-struct KeyHash {
-  std::size_t operator()(const Face& f) const {
-    std::size_t h = 0;
-    for (int i : f) h = h * 1000003u + static_cast<std::size_t>(i);
-    return h;
-  }
-};
 
 template <class Set>
 const Set& named(const std::map<std::string, Set>& sets, const std::string& name, const char* kind) {
@@ -38,15 +30,34 @@ std::string face_nodes(const Mesh& mesh, const Face& face) {
   return text;
 }
 
-using FaceMap = std::unordered_map<Face, int, KeyHash>;
+// The faces of all cells, in the order of their keys.
+class FaceIndex {
+ public:
+  explicit FaceIndex(const Mesh& mesh) : begin_(static_cast<std::size_t>(mesh.n_nodes()) + 1, 0) {
+    std::vector<Face> all;
+    all.reserve(static_cast<std::size_t>(mesh.cells.size()) * 6);
+    for (int i = 0; i < mesh.cells.size(); ++i)
+      for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i])) all.push_back(face_key(face));
+    for (const Face& key : all) ++begin_[static_cast<std::size_t>(key[0]) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    keys_.resize(all.size());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Face& key : all) keys_[next[static_cast<std::size_t>(key[0])]++] = key;
+  }
 
-FaceMap count_faces(const Mesh& mesh) {
-  FaceMap count;
-  count.reserve(static_cast<std::size_t>(mesh.cells.size()) * 4);
-  for (int i = 0; i < mesh.cells.size(); ++i)
-    for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i])) ++count[face_key(face)];
-  return count;
-}
+  /// How many cells have it.
+  int count(const Face& key) const {
+    const auto first = static_cast<std::size_t>(key[0]);
+    if (key[0] < 0 || first + 1 >= begin_.size()) return 0;
+    const auto begin = keys_.begin();
+    return static_cast<int>(std::count(begin + static_cast<std::ptrdiff_t>(begin_[first]),
+                                       begin + static_cast<std::ptrdiff_t>(begin_[first + 1]), key));
+  }
+
+ private:
+  std::vector<std::size_t> begin_;  // by the lowest node
+  std::vector<Face> keys_;
+};
 
 void validate_members(const std::map<std::string, std::vector<int>>& sets, int n, const char* kind,
                       const std::string& source) {
@@ -90,11 +101,11 @@ void Cells::add(CellType t, std::span<const int> cell_nodes) {
 }
 
 std::vector<Face> boundary_faces(const Mesh& mesh, std::vector<int>* cell) {
-  const FaceMap count = count_faces(mesh);
+  const FaceIndex index(mesh);
   std::vector<Face> boundary;
   for (int i = 0; i < mesh.cells.size(); ++i)
     for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i]))
-      if (count.at(face_key(face)) == 1) {
+      if (index.count(face_key(face)) == 1) {
         boundary.push_back(face);
         if (cell) cell->push_back(i);
       }
@@ -110,10 +121,10 @@ void validate(const Mesh& mesh, const std::string& source) {
   validate_members(mesh.node_sets, mesh.n_nodes(), "node", source);
   validate_members(mesh.cell_sets, mesh.cells.size(), "cell", source);
   if (mesh.face_sets.empty()) return;
-  const FaceMap faces = count_faces(mesh);
+  const FaceIndex index(mesh);
   for (const auto& [name, members] : mesh.face_sets)
     for (const Face& face : members)
-      if (!faces.contains(face_key(face)))
+      if (index.count(face_key(face)) == 0)
         fail(source, ": face set '", name, "' holds the face of ", face_nodes(mesh, face),
              ", which is no face of a cell");
 }
