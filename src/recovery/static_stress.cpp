@@ -60,25 +60,10 @@ Eigen::MatrixXd StaticStress::unit_stress(int position, Eigen::Index state) {
                                      .middleRows(state * n_rows, n_rows));
 }
 
-const Eigen::MatrixXd& StaticStress::instantaneous_unit(std::size_t loaded) {
-  if (!is_stored()) return unit_.at(static_cast<int>(loaded)).instantaneous;
-  const int position = response_.position[loaded];
-  Unit& unit = unit_[position];
-  if (unit.instantaneous.size() == 0) unit.instantaneous = unit_stress(position, 0);
-  return unit.instantaneous;
-}
-
-// By a force that is spread over the nodes around instead.
-const Eigen::MatrixXd& StaticStress::change_unit(int position) {
-  Unit& unit = unit_[position];
-  if (unit.change.size() > 0) return unit.change;
-  const model::Flexibility& flexibility = response_.body.flexibility;
-  const contact::Spread& to = spread_.of(flexibility.node[static_cast<std::size_t>(position)]);
-  unit.change = -unit_stress(position, 0);
-  for (std::size_t i = 0; i < to.node.size(); ++i)
-    unit.change +=
-        to.weight[static_cast<Eigen::Index>(i)] * unit_stress(model::find_loaded(flexibility, to.node[i]), 0);
-  return unit.change;
+const Eigen::MatrixXd& StaticStress::instantaneous_unit(int key) {
+  Eigen::MatrixXd& unit = unit_[key].instantaneous;
+  if (is_stored() && unit.size() == 0) unit = unit_stress(key, 0);
+  return unit;
 }
 
 const std::vector<Eigen::MatrixXd>& StaticStress::grown_units(int position) {
@@ -93,10 +78,33 @@ const std::vector<Eigen::MatrixXd>& StaticStress::grown_units(int position) {
 void StaticStress::forget_units() {
   Eigen::Index kept = 0;
   for (const auto& [position, unit] : unit_) {
-    kept += unit.instantaneous.size() + unit.change.size();
+    kept += unit.instantaneous.size();
     for (const Eigen::MatrixXd& grown : unit.grown) kept += grown.size();
   }
   if (is_stored() && kept > kMaxKeptUnits) unit_.clear();
+}
+
+// Spreads the forces before their stresses are summed: neighbours share most of the nodes that theirs go to.
+void StaticStress::add_change(Range times) {
+  const model::Flexibility& flexibility = response_.body.flexibility;
+  std::map<int, Eigen::MatrixXd> change;  // N, 3 x n_t, by position
+  const auto add = [&](int position, double weight, const Eigen::MatrixXd& force) {
+    const auto at = change.try_emplace(position, Eigen::MatrixXd::Zero(3, times.count)).first;
+    at->second += weight * force;
+  };
+  for (std::size_t b = 0; b < response_.node.size(); ++b) {
+    const Eigen::MatrixXd force = at_times(response_.force, b, times);
+    if (force.isZero(0)) continue;
+    const int position = response_.position[b];
+    const contact::Spread& to = spread_.of(flexibility.node[static_cast<std::size_t>(position)]);
+    add(position, -1, force);
+    for (std::size_t i = 0; i < to.node.size(); ++i)
+      add(model::find_loaded(flexibility, to.node[i]), to.weight[static_cast<Eigen::Index>(i)], force);
+  }
+  for (auto& [position, force] : change) {
+    change_.unit.push_back(&instantaneous_unit(position));
+    change_.force.push_back(std::move(force));
+  }
 }
 
 void StaticStress::add_crept(Range times) {
@@ -118,13 +126,11 @@ void StaticStress::set_times(Range times, bool with_change) {
   for (std::size_t b = 0; b < response_.node.size(); ++b) {
     Eigen::MatrixXd force = at_times(response_.force, b, times);
     if (force.isZero(0)) continue;  // a node bears at few times of a long run
-    if (with_change && is_stored()) {
-      change_.unit.push_back(&change_unit(response_.position[b]));
-      change_.force.push_back(force);
-    }
-    instantaneous_.unit.push_back(&instantaneous_unit(b));
+    instantaneous_.unit.push_back(
+        &instantaneous_unit(is_stored() ? response_.position[b] : static_cast<int>(b)));
     instantaneous_.force.push_back(std::move(force));
   }
+  if (with_change && is_stored()) add_change(times);
   if (response_.crept) add_crept(times);
 }
 

@@ -38,7 +38,7 @@ class StaticStress {
  private:
   // Stresses by unit forces on one node, 6 n x 3 each, Pa/N.
   struct Unit {
-    Eigen::MatrixXd instantaneous, change;
+    Eigen::MatrixXd instantaneous;
     std::vector<Eigen::MatrixXd> grown;  // of relaxed states, less the instantaneous
   };
   // Stresses by unit forces, and the forces at the times.
@@ -49,9 +49,9 @@ class StaticStress {
 
   const Eigen::MatrixXf& columns(int orbit);
   Eigen::MatrixXd unit_stress(int position, Eigen::Index state);
-  const Eigen::MatrixXd& instantaneous_unit(std::size_t loaded);
-  const Eigen::MatrixXd& change_unit(int position);
+  const Eigen::MatrixXd& instantaneous_unit(int key);
   const std::vector<Eigen::MatrixXd>& grown_units(int position);
+  void add_change(Range times);
   void add_crept(Range times);
   void forget_units();
   Eigen::MatrixXd stress_by(const Loads& loads, Range nodes) const;
