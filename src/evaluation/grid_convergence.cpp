@@ -9,13 +9,12 @@
 namespace elastogear::evaluation {
 namespace {
 
-constexpr double kOrder = 2;                       // assumed, of stresses of 20-node hexahedra
 constexpr double kAssumed = 3, kObserved = 1.25;   // factors of safety with an assumed order, an observed one
 constexpr double kLeastOrder = 1, kMostOrder = 4;  // other ones are those of meshes too coarse to tell
 
 // Eq. (10.15)
-double of_two_meshes(double change, double ratio) {
-  return kAssumed * std::abs(change) / (std::pow(ratio, kOrder) - 1);
+double of_two_meshes(double change, double ratio, double order) {
+  return kAssumed * std::abs(change) / (std::pow(ratio, order) - 1);
 }
 
 // Of the change on the way to the middle mesh over that on the way to the finest, at an order of convergence.
@@ -39,23 +38,24 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement) {
+double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement, double order) {
   const std::size_t n = value.size();
   require(n >= 2 && refinement.size() == n, "an estimate of the error by meshes needs at least two of them");
   for (std::size_t i = 1; i < n; ++i)
     require(refinement[i] > refinement[i - 1], "a mesh of refinement ", refinement[i],
             " is not finer than one of ", refinement[i - 1]);
   const double fine = refinement[n - 1] / refinement[n - 2], change = value[n - 1] - value[n - 2];
-  if (n == 2) return of_two_meshes(change, fine);
+  if (n == 2) return of_two_meshes(change, fine, order);
   const double coarse = refinement[n - 2] / refinement[n - 3], before = value[n - 2] - value[n - 3];
   const double changes = before / change;  // not finite without a change: no order is observed
   if (changes >= ratio_of_changes(kLeastOrder, coarse, fine) &&
       changes <= ratio_of_changes(kMostOrder, coarse, fine)) {
-    const double order = std::min(kOrder, observed_order(changes, coarse, fine));
-    return kObserved * std::abs(change) / (std::pow(fine, order) - 1);
+    const double observed = std::min(order, observed_order(changes, coarse, fine));
+    return kObserved * std::abs(change) / (std::pow(fine, observed) - 1);
   }
   // Eq. (10.17)
-  return std::max(of_two_meshes(change, fine), of_two_meshes(before, coarse) / std::pow(fine, kOrder));
+  return std::max(of_two_meshes(change, fine, order),
+                  of_two_meshes(before, coarse, order) / std::pow(fine, order));
 }
 
 // Eq. (10.18)

@@ -21,6 +21,14 @@ TEST(GridConvergence, two_meshes_of_the_assumed_order) {
   EXPECT_NEAR(mesh_error(values(2, {1, 1.5}), {1, 1.5}), 3 * 10 / 2.25, 1e-9);
 }
 
+TEST(GridConvergence, figures_of_the_first_order) {
+  EXPECT_NEAR(mesh_error(values(1, {1, 1.5}), {1, 1.5}, 1), 3 * 10 / 1.5, 1e-9);
+  const std::vector<double> r = {1, 1.5, 2};
+  EXPECT_NEAR(mesh_error(values(1.5, r), r, 1),
+              1.25 * 10 * std::pow(2, -1.5) * (std::pow(4 / 3., 1.5) - 1) * 3, 1e-6);
+  EXPECT_NEAR(mesh_error({410, 421, 419}, r, 1), 3 * 11 / 0.5 * 0.75, 1e-9);
+}
+
 TEST(GridConvergence, three_meshes_of_an_observed_order) {
   const std::vector<double> r = {1, 1.5, 2};
   EXPECT_NEAR(mesh_error(values(1.5, r), r), 1.25 * 10 * std::pow(2, -1.5), 1e-6);

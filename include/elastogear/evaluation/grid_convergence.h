@@ -7,8 +7,9 @@ namespace elastogear::evaluation {
 
 /// How far the last value is from that of infinitely fine meshes, Eq. (10.15) to (10.17): the Grid
 /// Convergence Index of ASME V&V 20. value: on at least two meshes, the coarsest first; refinement: their
-/// numbers of cells along a line, up to a factor that they share. Throws Error unless these ascend.
-double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement);
+/// numbers of cells along a line, up to a factor that they share. order: of the figure's convergence by
+/// theory; 2 is that of strains in 20-node hexahedra. Throws Error unless refinements ascend.
+double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement, double order = 2);
 
 /// Raises each error to the median share, Eq. (10.18), of figures on the same meshes: the change of one
 /// figure between two meshes may pass through zero, those of half of them do not. figure, error: of equal

@@ -29,21 +29,28 @@ constexpr const char* kOfMesh[] = {"transmission_error/mean",
                                    "stiffness/tangent_mean",
                                    "teeth/contact_ratio",
                                    kLargestShare,
-                                   "line_load/KHbeta",
-                                   "pressure/hertz_peak",
                                    "losses/loss_factor"};
+// The largest of means over strips of a face: it changes with their width, to the first order.
+constexpr const char* kOverFace[] = {"line_load/KHbeta", "pressure/hertz_peak"};
+constexpr const char* kFace = "face";
+constexpr double kOrder = 2, kFaceOrder = 1;
 constexpr const char* kOfRoots[] = {kRootTension, "/largest_von_mises", "/range"};
 constexpr const char *kMean = "_mean", *kPerWidth = "_per_width";  // of a stiffness
 
-// The class of a figure, whose errors are of a kind: one stress at all roots, or the rest. Empty: the mesh
-// does not change the figure.
+template <class List>
+bool holds(const List& list, const std::string& path) {
+  return std::find(std::begin(list), std::end(list), path) != std::end(list);
+}
+
+// The class of a figure, whose errors are of a kind: one stress at all roots, largest loads of a face, or the
+// rest. Empty: the mesh does not change the figure.
 std::string class_of(const EvaluationItem& item) {
   if (!item.shape.empty() || !item.words.empty()) return "";
   if (item.path.starts_with("root/"))
     for (const char* end : kOfRoots)
       if (item.path.ends_with(end)) return end;
-  const bool found = std::find(std::begin(kOfMesh), std::end(kOfMesh), item.path) != std::end(kOfMesh);
-  return found ? "drive" : "";
+  if (holds(kOverFace, item.path)) return kFace;
+  return holds(kOfMesh, item.path) ? "drive" : "";
 }
 
 double refinement_of(const io::EvaluationFile& evaluation, const std::string& file) {
@@ -67,7 +74,7 @@ void require_pair(const CoarserMesh& mesh, const std::string& group) {
 
 // Nothing where a coarser mesh has not the figure.
 std::optional<double> error_of(const std::vector<CoarserMesh>& coarser, const std::string& path,
-                               double finest, double refinement) {
+                               double finest, double refinement, double order) {
   std::vector<double> value, refinements;
   for (const CoarserMesh& mesh : coarser) {
     const EvaluationItem* item = find_item(mesh.evaluation.items, path);
@@ -77,7 +84,7 @@ std::optional<double> error_of(const std::vector<CoarserMesh>& coarser, const st
   }
   value.push_back(finest);
   refinements.push_back(refinement);
-  return evaluation::mesh_error(value, refinements);
+  return evaluation::mesh_error(value, refinements, order);
 }
 
 // Figures of a class and their errors.
@@ -110,8 +117,9 @@ std::vector<EvaluationItem> error_items(const std::vector<CoarserMesh>& coarser,
   std::map<std::string, Class> classes;
   for (const EvaluationItem& item : items) {
     const std::string name = class_of(item);
+    if (name.empty()) continue;
     const auto error =
-        name.empty() ? std::nullopt : error_of(coarser, group + item.path, item.value[0], refinement);
+        error_of(coarser, group + item.path, item.value[0], refinement, name == kFace ? kFaceOrder : kOrder);
     if (!error || (item.path == kLargestShare && *error <= kSame)) continue;
     Class& of = classes[name];
     of.item.push_back(&item), of.figure.push_back(item.value[0]), of.error.push_back(*error);
