@@ -31,6 +31,36 @@ wear: {coefficient: 1e-9 mm^3/(N m), increment: 4 um, density: 8000}
 K, DENSITY = 1e-18, 8000
 
 
+def largest_depths():
+    with open("drive_wear.json", encoding="utf-8") as file:
+        return {gear["gear"]: (gear["largest_depth_m"], gear.get("largest_depth_mesh_error_m")) for gear in json.load(file)["gears"]}
+
+
+def check_error_by_mesh(run):
+    """Bodies on a coarser mesh, as run leaves them, give the depth an error, by the formula of two meshes and the mean share of both
+    gears; those of another input do not."""
+    coarse = largest_depths()
+    assert all(error is None for _, error in coarse.values()), coarse
+    os.makedirs("drive_meshes/1")
+    for gear in coarse:
+        os.rename(f"{gear}.h5", f"drive_meshes/1/{gear}.h5")
+    run("reduce", "-refinement", "1.5")
+    text = run("wear", "-revolutions", "1000")
+    fine = largest_depths()
+    share = {gear: 3 * abs(fine[gear][0] - coarse[gear][0]) / (1.5**2 - 1) / fine[gear][0] for gear in fine}
+    for gear, (depth, error) in fine.items():
+        expected = depth * max(share[gear], sum(share.values()) / 2)
+        assert error > 0 and abs(error / expected - 1) < 1e-9, (gear, error, expected)
+    assert text.count("by the mesh") == 5, text  # of a sweep, two depths and two masses
+    with h5py.File("drive_wear.h5") as file:
+        assert abs(file["wheel/largest_depth_mesh_error"][-1] / fine["wheel"][1] - 1) < 1e-12
+    run("reduce", "-refinement", "1.5", "-face_width", "8 mm")
+    run("wear", "-revolutions", "1000", "-face_width", "8 mm")
+    assert all(error is None for _, error in largest_depths().values())
+    for gear in coarse:
+        os.replace(f"drive_meshes/1/{gear}.h5", f"{gear}.h5")
+
+
 def look(program, scripts):
     def run(verb, *options, fails=None):
         done = subprocess.run([program, verb, "drive.yaml", *options], capture_output=True, text=True, check=False)
@@ -64,6 +94,8 @@ def look(program, scripts):
             assert abs(mass / volume - 1) < 0.01, (gear, mass, volume)
             assert file[gear]["left"][:].max() > 0 and file[gear]["right"][:].max() == 0
         assert list(file["revolutions"][:]) == [0, 1000]
+
+    check_error_by_mesh(run)
 
     text = run("wear", "-revolutions", "1e12", "-limit", "6 um", "-coefficient", "1e-9 mm^3/(N m)")
     assert "reaches the limit of depth" in text, text

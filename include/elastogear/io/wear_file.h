@@ -15,6 +15,8 @@ struct WornGear {
   Eigen::VectorXd z;               ///< n_v, m, of the middles of cells across the face
   Eigen::MatrixXd left, right;     ///< n_u x n_v, m, depth at the end
   Eigen::VectorXd largest, mass;   ///< n_steps, m, kg, over the revolutions
+  /// n_steps, m, kg, estimated errors by the mesh; empty: not estimated.
+  Eigen::VectorXd largest_mesh_error = {}, mass_mesh_error = {};
 };
 
 struct WearFile {

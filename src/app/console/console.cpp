@@ -4,7 +4,9 @@
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <algorithm>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -144,6 +146,14 @@ std::string with_unit(double value, const std::string& unit) {
 std::string short_number(double value) {
   char text[64];
   std::snprintf(text, sizeof text, std::abs(value) < 999.5 ? "%.3g" : "%.0f", value);
+  return text;
+}
+
+std::string rounded_to(double error, double value) {
+  constexpr int kMost = 9;  // decimals
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f",
+                std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, kMost), value);
   return text;
 }
 

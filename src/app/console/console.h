@@ -38,6 +38,8 @@ bool is_silenced();
 std::string with_unit(double value, const std::string& unit);
 /// Number in three significant digits, without an exponent from 1000 on.
 std::string short_number(double value);
+/// Number whose last digit is the second one of its error, which is positive.
+std::string rounded_to(double error, double value);
 /// A share in percent: two digits below 10 %, whole percents above.
 std::string percent(double share);
 /// with_unit of a length in m, in mm.

@@ -50,18 +50,6 @@ std::string word(const Items& items, const std::string& path) {
   return item && !item->words.empty() ? item->words[0] : "";
 }
 
-// With an error the last digit of a number is the second one of the error.
-int decimals_of(double error) {
-  constexpr int kMost = 9;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, kMost);
-}
-
-std::string with_decimals(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
 // The smallest and the largest value of all pairs of a kind; empty where none has it.
 struct Span {
   double low = INFINITY, high = -INFINITY, error = 0;
@@ -70,9 +58,7 @@ struct Span {
   std::string text() const {
     if (low > high) return "";
     const bool knows = error > 0;
-    const auto number = [&](double x) {
-      return knows ? with_decimals(x, decimals_of(error)) : short_number(x);
-    };
+    const auto number = [&](double x) { return knows ? rounded_to(error, x) : short_number(x); };
     const std::string first = number(low), last = number(high);
     return (first == last ? first : first + " to " + last) + (knows ? " +- " + number(error) : "");
   }

@@ -18,6 +18,7 @@
 #include "app/options/verbs.h"
 #include "app/run/report_page.h"
 #include "app/run/run_on_mesh.h"
+#include "app/setup/drive_on_meshes.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -130,7 +131,7 @@ void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
   for (int mesh = 0; mesh < kMeshes; ++mesh) {
     std::ostringstream folder;
-    folder << drive_stem(of.reduce) << "_meshes/" << kRefinements[mesh];
+    folder << folder_of_meshes(of.reduce) << "/" << kRefinements[mesh];
     const RunOnMesh apart = on_mesh(of, drive, kRefinements[mesh], folder.str());
     const bool last = mesh + 1 == kMeshes;
     print_item("mesh",

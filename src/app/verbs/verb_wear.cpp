@@ -9,6 +9,7 @@
 #include "app/console/outputs.h"
 #include "app/gear/drive_options.h"
 #include "app/options/verbs.h"
+#include "app/setup/drive_on_meshes.h"
 #include "app/sweep/sweep_run.h"
 #include "app/wear/wear_report.h"
 #include "elastogear/base/error.h"
@@ -46,6 +47,10 @@ Eigen::MatrixXd rate(const WearingGear& gear, const Eigen::MatrixXd& passed) {
   return gear.material.coefficient * std::abs(gear.member->ratio) * life::depth(gear.cells, passed);
 }
 
+void write_flanks(const std::vector<WearingGear>& gears, const std::string& output) {
+  for (const WearingGear& gear : gears) write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
+}
+
 // The sweep of the drive with flanks that are worn so far.
 void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, const std::string& output) {
   Options of_sweep = options;
@@ -56,6 +61,34 @@ void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, c
     of_sweep.set(gear.member->name + "_wear", worn_flanks_file(output, gear.member->name));
   std::filesystem::remove(sweep_file(output));
   run_sweep(of_sweep);
+}
+
+// What a revolution of the first gear takes off the flanks as they are.
+WearRates rates(const std::vector<WearingGear>& gears, const std::vector<PassedVolume>& passed) {
+  WearRates rates;
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    WearingGear fresh = gears[i];
+    for (int side = 0; side < 2; ++side) fresh.depth[side] = rate(gears[i], passed[i].of[side]);
+    rates.depth.push_back(largest_depth(fresh));
+    rates.mass.push_back(worn_mass(fresh));
+  }
+  return rates;
+}
+
+// Rates of unworn flanks on coarser meshes, for estimated errors of the wear by the mesh.
+std::vector<WearRates> rates_on(const std::vector<DriveOnMesh>& coarser, const Drive& drive,
+                                const WearSettings& settings, const std::string& output) {
+  std::vector<WearRates> found;
+  for (const DriveOnMesh& mesh : coarser) {
+    print_item("sweep", "counts " + short_number(mesh.refinement) +
+                            " times those of the size, for the estimated error by the mesh");
+    const Silence silence;
+    const std::vector<WearingGear> gears = wearing_gears(mesh.options, drive, settings);
+    write_flanks(gears, output);
+    sweep_worn(mesh.options, gears, output);
+    found.push_back(rates(gears, passed_volume(sweep_file(output), drive, gears)));
+  }
+  return found;
 }
 
 // Revolutions to the next sweep: to the end, the limit, or the increment, whichever comes first.
@@ -92,10 +125,10 @@ WearCourse wear_down(const Options& options, const Drive& drive, const WearSetti
     require(sweep < settings.most_sweeps, options.label("most_sweeps"), ": ", sweep, " sweeps reach ",
             course.revolutions.back(), " of ", settings.revolutions,
             " revolutions; a larger increment takes fewer");
-    for (const WearingGear& gear : gears)
-      write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
+    write_flanks(gears, output);
     sweep_worn(options, gears, output);
     const std::vector<PassedVolume> passed = passed_volume(sweep_file(output), drive, gears);
+    if (sweep == 0) course.first = rates(gears, passed);
     const double done = course.revolutions.back(), step = next_step(settings, gears, passed, done);
     for (std::size_t i = 0; i < gears.size(); ++i)
       for (int side = 0; side < 2; ++side) gears[i].depth[side] += step * rate(gears[i], passed[i].of[side]);
@@ -148,11 +181,12 @@ void run_wear(const Options& given, const std::vector<std::string>&) {
   protect_inputs(options, {outputs}, bodies);
   const OutputLock lock(output);
   std::string why;
-  const WearCourse course = wear_down(options, drive, settings, gears, output, why);
-  for (const WearingGear& gear : gears) {
-    write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
-    print_item("written", worn_flanks_file(output, gear.member->name));
-  }
+  const DriveOnMeshes meshes = drive_on_meshes(options, drive);
+  const std::vector<WearRates> on_coarser = rates_on(meshes.coarser, drive, settings, output);
+  WearCourse course = wear_down(options, drive, settings, gears, output, why);
+  estimate_errors(course, on_coarser, meshes.refinements());
+  write_flanks(gears, output);
+  for (const WearingGear& gear : gears) print_item("written", worn_flanks_file(output, gear.member->name));
   io::WearFile file = wear_file(course, gears);
   file.provenance = options.provenance();
   io::write_wear(output, file);

@@ -7,6 +7,7 @@
 #include "app/console/console.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
+#include "elastogear/evaluation/grid_convergence.h"
 #include "elastogear/io/csv.h"
 
 namespace elastogear::app {
@@ -30,7 +31,40 @@ Eigen::VectorXd column(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+// Shares of the last rates. rates: by mesh and gear.
+std::vector<double> error_shares(const std::vector<std::vector<double>>& rates,
+                                 const std::vector<double>& refinement) {
+  const std::vector<double>& finest = rates.back();
+  std::vector<double> error;
+  for (std::size_t gear = 0; gear < finest.size(); ++gear) {
+    std::vector<double> value;
+    for (const std::vector<double>& on_mesh : rates) value.push_back(on_mesh[gear]);
+    error.push_back(evaluation::mesh_error(value, refinement));
+  }
+  evaluation::raise_to_median(finest, error);
+  for (std::size_t gear = 0; gear < finest.size(); ++gear)
+    error[gear] = finest[gear] > 0 ? error[gear] / finest[gear] : 0;
+  return error;
+}
+
+// "0.5955 +- 0.0081 um by the mesh".
+std::string figure(double value, const std::vector<double>& error, std::size_t gear,
+                   const std::string& unit) {
+  const double by_mesh = error.empty() ? 0 : error[gear] * value;
+  if (!(by_mesh > 0)) return with_unit(value, unit);
+  return rounded_to(by_mesh, value) + " +- " + rounded_to(by_mesh, by_mesh) + " " + unit + " by the mesh";
+}
+
 }  // namespace
+
+void estimate_errors(WearCourse& course, std::vector<WearRates> on_meshes,
+                     const std::vector<double>& refinement) {
+  if (on_meshes.empty()) return;
+  on_meshes.push_back(course.first);
+  std::vector<std::vector<double>> depth, mass;
+  for (const WearRates& rates : on_meshes) depth.push_back(rates.depth), mass.push_back(rates.mass);
+  course.error = {error_shares(depth, refinement), error_shares(mass, refinement)};
+}
 
 void note(WearCourse& course, const std::vector<WearingGear>& gears, double revolutions) {
   course.depth.resize(gears.size());
@@ -74,10 +108,15 @@ void write_course(const std::string& output, const WearCourse& course, const std
     const std::string& name = gears[i].member->name;
     columns.push_back({"largest depth of " + name, "m", column(course.depth[i])});
     columns.push_back({"worn mass of " + name, "kg", column(course.mass[i])});
-    json["gears"].push_back({{"gear", name},
-                             {"largest_depth_m", course.depth[i].back()},
-                             {"worn_mass_kg", course.mass[i].back()},
-                             {"flanks", worn_flanks_file(output, name)}});
+    nlohmann::ordered_json gear = {{"gear", name},
+                                   {"largest_depth_m", course.depth[i].back()},
+                                   {"worn_mass_kg", course.mass[i].back()},
+                                   {"flanks", worn_flanks_file(output, name)}};
+    if (!course.error.depth.empty()) {
+      gear["largest_depth_mesh_error_m"] = course.error.depth[i] * course.depth[i].back();
+      gear["worn_mass_mesh_error_kg"] = course.error.mass[i] * course.mass[i].back();
+    }
+    json["gears"].push_back(std::move(gear));
   }
   io::write_csv(course_files(output)[0], columns);
   write_file(course_files(output)[1], json.dump(2) + "\n");
@@ -86,18 +125,23 @@ void write_course(const std::string& output, const WearCourse& course, const std
 io::WearFile wear_file(const WearCourse& course, const std::vector<WearingGear>& gears) {
   io::WearFile file;
   file.revolutions = column(course.revolutions);
-  for (std::size_t i = 0; i < gears.size(); ++i)
+  for (std::size_t i = 0; i < gears.size(); ++i) {
     file.gears.push_back({gears[i].member->name, diameters(gears[i]), middles(gears[i].cells.u),
                           middles(gears[i].cells.v), gears[i].depth[0], gears[i].depth[1],
                           column(course.depth[i]), column(course.mass[i])});
+    if (course.error.depth.empty()) continue;
+    file.gears.back().largest_mesh_error = course.error.depth[i] * column(course.depth[i]);
+    file.gears.back().mass_mesh_error = course.error.mass[i] * column(course.mass[i]);
+  }
   return file;
 }
 
 void print_wear(const WearCourse& course, const std::vector<WearingGear>& gears, const std::string& why) {
   print_item("wear", with_unit(course.revolutions.back(), "revolutions of the first gear") + ", " + why);
   for (std::size_t i = 0; i < gears.size(); ++i)
-    print_item(gears[i].member->name, "largest depth " + with_unit(1e6 * course.depth[i].back(), "um") +
-                                          ", worn mass " + with_unit(1e3 * course.mass[i].back(), "g"));
+    print_item(gears[i].member->name,
+               "largest depth " + figure(1e6 * course.depth[i].back(), course.error.depth, i, "um") +
+                   ", worn mass " + figure(1e3 * course.mass[i].back(), course.error.mass, i, "g"));
 }
 
 }  // namespace elastogear::app

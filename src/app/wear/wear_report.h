@@ -9,11 +9,24 @@
 
 namespace elastogear::app {
 
+/// What a revolution of the first gear takes off: largest depth, m, and mass of all teeth, kg, by gear.
+struct WearRates {
+  std::vector<double> depth = {}, mass = {};
+};
+
 /// Course of the wear: what there is after each step.
 struct WearCourse {
   std::vector<double> revolutions = {0};         ///< of the first gear
   std::vector<std::vector<double>> depth, mass;  ///< by gear, over the steps, m, kg
+  WearRates first = {};                          ///< of unworn flanks
+  /// Estimated errors by the mesh, as shares of depth and mass, by gear. Empty: there is no coarser mesh.
+  WearRates error = {};
 };
+
+/// Errors at the end are as large a share as those of unworn flanks, Eq. (10.15) to (10.18), depths and
+/// masses each a kind. on_coarser: rates on coarser meshes; refinement: of all meshes, ascending.
+void estimate_errors(WearCourse& course, std::vector<WearRates> on_coarser,
+                     const std::vector<double>& refinement);
 
 /// Adds the present state of the gears.
 void note(WearCourse& course, const std::vector<WearingGear>& gears, double revolutions);

@@ -8,12 +8,16 @@ namespace {
 
 void check_worn(const h5::File& file, const WornGear& gear, Eigen::Index n_steps) {
   require_name(file, gear.body);
+  const auto has_steps = [&](const Eigen::VectorXd& course) {
+    return course.size() == n_steps && course.allFinite();
+  };
   const auto fits = [&](const Eigen::MatrixXd& depth) {
     return depth.rows() == gear.roll.size() && depth.cols() == gear.z.size() && depth.allFinite();
   };
   require(fits(gear.left) && fits(gear.right) && gear.diameter.size() == gear.roll.size() &&
-              gear.largest.size() == n_steps && gear.mass.size() == n_steps && gear.largest.allFinite() &&
-              gear.mass.allFinite(),
+              has_steps(gear.largest) && has_steps(gear.mass) &&
+              (gear.largest_mesh_error.size() == 0 ||
+               (has_steps(gear.largest_mesh_error) && has_steps(gear.mass_mesh_error))),
           file.path, ": wear of ", gear.body, " does not have ", n_steps, " finite steps and ",
           gear.roll.size(), " x ", gear.z.size(), " cells");
 }
@@ -44,6 +48,9 @@ void write_wear(const std::string& path, const WearFile& wear) {
     write_depth(file, group + "/right", gear.right);
     h5::write<double>(file, group + "/largest_depth", view(gear.largest), "m");
     h5::write<double>(file, group + "/mass", view(gear.mass), "kg");
+    if (gear.largest_mesh_error.size() == 0) continue;
+    h5::write<double>(file, group + "/largest_depth_mesh_error", view(gear.largest_mesh_error), "m");
+    h5::write<double>(file, group + "/mass_mesh_error", view(gear.mass_mesh_error), "kg");
   }
   h5::close(file);
   pending.commit();
