@@ -75,8 +75,8 @@ FactsByName drive_facts(const Given& given) {
   FactsByName facts;
   for (std::size_t i = 0; i < drive.members.size(); ++i)
     facts[drive.members[i].name] = fact_list(drive.facts[i]);
-  for (const app::DrivePair& pair : drive.pairs)
-    facts[drive.members[pair.first].name + ":" + drive.members[pair.second].name] = fact_list(pair.facts);
+  for (std::size_t i = 0; i < drive.pairs.size(); ++i)
+    facts[app::pair_name(drive, drive.pairs[i])] = fact_list(drive.pair_facts[i]);
   return facts;
 }
 

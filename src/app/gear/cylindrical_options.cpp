@@ -302,37 +302,17 @@ void take_own_mesh(const Options& options, const std::string& file, double end_d
 
 OptionTable cylindrical_table() { return table_of(kRackRows, kGearRows); }
 
-Drive cylindrical_drive(const Options& options) {
+Drive cylindrical_drive(const Options& options, const drive::Start& start) {
   const CylindricalDrive d = cylindrical_design(options);
   const CylindricalGeometry g = gear::derive(d);
-  const auto angle =
-      gear::angles(d, g, options.number("roll"), options.choice("side", {"drive", "coast"}) == 0);
-  Drive drive;
+  Drive drive{drive::cylindrical_drive(d, g, start)};
   for (std::size_t i = 0; i < d.gears.size(); ++i) {
-    const int k = static_cast<int>(i);
-    DriveMember member{.name = d.gears[i].name,
-                       .toothing = g.gear[i],
-                       .mesh =
-                           [=](const MeshDensity& by, mesh::ReadReport&) {
-                             const auto n = gear::cylindrical_counts(d, g, k, by.size, by.order);
-                             return gear::cylindrical_mesh(d, g, k, gear::refined(n, by.refinement));
-                           },
-                       .held = g.gear[i].internal ? "outer" : "bore"};
-    member.position.head<2>() = g.axis[i];
-    member.angle = angle[i];
-    member.width = g.blank[i].face_width;
+    DriveMember& member = drive.members[i];
     if (const std::string file = own_mesh(options, member.name); !file.empty())
       take_own_mesh(options, file, g.blank[i].end_diameter(), member);
-    drive.members.push_back(member);
-    drive.facts.push_back(member_facts(d, g, k));
+    drive.facts.push_back(member_facts(d, g, static_cast<int>(i)));
   }
-  for (std::size_t i = 0; i < d.pairs.size(); ++i) {
-    const gear::GearPair& pair = d.pairs[i];
-    drive.pairs.push_back({pair.first, pair.second, pair_facts(d, g, i)});
-    const double both = g.gear[pair.first].sign() * g.gear[pair.second].sign();
-    drive.members[pair.second].ratio =
-        -both * drive.members[pair.first].ratio * d.gears[pair.first].z / d.gears[pair.second].z;
-  }
+  for (std::size_t i = 0; i < d.pairs.size(); ++i) drive.pair_facts.push_back(pair_facts(d, g, i));
   return drive;
 }
 

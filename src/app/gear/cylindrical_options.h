@@ -7,6 +7,6 @@
 namespace elastogear::app {
 
 OptionTable cylindrical_table();
-Drive cylindrical_drive(const Options& options);
+Drive cylindrical_drive(const Options& options, const drive::Start& start);
 
 }  // namespace elastogear::app

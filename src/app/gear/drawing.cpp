@@ -100,9 +100,8 @@ double write_facts(std::ostream& out, const Drive& drive, const Vector2d& at, do
   std::vector<Column> columns;
   for (std::size_t i = 0; i < drive.members.size(); ++i)
     columns.push_back({drive.members[i].name, kFill[i % std::size(kFill)], &drive.facts[i]});
-  for (const DrivePair& pair : drive.pairs)
-    columns.push_back(
-        {drive.members[pair.first].name + " : " + drive.members[pair.second].name, "#fff", &pair.facts});
+  for (std::size_t i = 0; i < drive.pairs.size(); ++i)
+    columns.push_back({pair_name(drive, drive.pairs[i]), "#fff", &drive.pair_facts[i]});
   const double step = width / static_cast<double>(columns.size());
   double lowest = at[1];
   for (std::size_t i = 0; i < columns.size(); ++i) {

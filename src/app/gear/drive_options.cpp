@@ -76,6 +76,14 @@ std::vector<std::string> given_of(const Options& options, const OptionTable& tab
   return names;
 }
 
+// Meshes of one drive are as fine as each other, so that estimated errors are those of all of them.
+void refuse_densities_of_gears(const Options& options) {
+  for (const std::string& gear : options.list("gears"))
+    for (const char* density : {"_size", "_element_order", "_refinement"})
+      require(!options.given(gear + density), options.label(gear + density),
+              ": all gears of a drive have one ", density + 1, "; give it without the gear's name");
+}
+
 // Numbers that the other kind of drive, or a single body, would have must not be passed over in silence.
 void refuse_others(const Options& options) {
   for (const char* name : kOfParts)
@@ -130,6 +138,10 @@ std::string own_mesh(const Options& options, const std::string& gear) {
   return options.given(option) ? options.text(option) : "";
 }
 
+drive::Start drive_start(const Options& options) {
+  return {options.number("roll"), options.choice("side", {"drive", "coast"}) == 1};
+}
+
 bool is_drive(const Options& options) { return options.given("drive"); }
 
 Options with_gears(Options options) {
@@ -154,11 +166,13 @@ Drive read_drive(const Options& options) {
   require_unit_of_speed(options);
   refuse_others(options);
   refuse_counts(options);
+  refuse_densities_of_gears(options);
   const std::vector<std::string> names = options.list("gears");
   for (const std::string& name : names)
     require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
             "' is there twice");
-  Drive drive = is_worm_drive(options) ? worm_drive(options) : cylindrical_drive(options);
+  Drive drive = is_worm_drive(options) ? worm_drive(options, drive_start(options))
+                                       : cylindrical_drive(options, drive_start(options));
   for (DriveMember& member : drive.members) member.deviations = flank_deviations(options, member);
   misalign(options, drive);
   return drive;
@@ -200,9 +214,9 @@ void print_drive(const Drive& drive) {
     print_item(drive.members[i].name, "");
     for (const Fact& fact : drive.facts[i]) print_item("  " + fact.name, fact.text);
   }
-  for (const DrivePair& pair : drive.pairs) {
-    print_item(drive.members[pair.first].name + ":" + drive.members[pair.second].name, "");
-    for (const Fact& fact : pair.facts) print_item("  " + fact.name, fact.text);
+  for (std::size_t i = 0; i < drive.pairs.size(); ++i) {
+    print_item(pair_name(drive, drive.pairs[i]), "");
+    for (const Fact& fact : drive.pair_facts[i]) print_item("  " + fact.name, fact.text);
   }
 }
 

@@ -23,6 +23,9 @@ std::string body_file(const Options& options, const DriveMember& member);
 /// The file of a mesh of one's own for this gear; empty: the data make it.
 std::string own_mesh(const Options& options, const std::string& gear);
 
+/// Its roll angle and the flanks in touch.
+drive::Start drive_start(const Options& options);
+
 /// Is this the run of a drive file?
 bool is_drive(const Options& options);
 

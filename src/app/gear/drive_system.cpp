@@ -243,9 +243,7 @@ Options with_system(Options options, const Drive& drive) {
     bodies += (bodies.empty() ? "" : ",") + member.name;
     options.set_default(member.name + "_file", body_file(options, member));
   }
-  for (const DrivePair& pair : drive.pairs)
-    pairs +=
-        (pairs.empty() ? "" : ",") + drive.members[pair.first].name + ":" + drive.members[pair.second].name;
+  for (const DrivePair& pair : drive.pairs) pairs += (pairs.empty() ? "" : ",") + pair_name(drive, pair);
   options.set_default("bodies", bodies);
   options.set_default("contact_pairs", pairs);
   options.set_default("contact_surface", "exact");
@@ -255,7 +253,7 @@ Options with_system(Options options, const Drive& drive) {
   }
   options.set_default("analysis", "static");
   options.set_default("output", drive_stem(options) + "_result.h5");
-  set_parts(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
+  set_parts(options, drive, drive_start(options).coasts ? -1 : 1);
   return options;
 }
 

@@ -1,25 +1,19 @@
 #include "app/gear/misalignment.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
-#include "elastogear/base/rotation.h"
 
 namespace elastogear::app {
 namespace {
 
-using Eigen::Vector3d;
+using drive::Misalignment;
 
 constexpr double kMostOffset = 0.1;  // of the tip radius
 constexpr double kMostAngle = 2;     // deg
-
-struct Misalignment {
-  double radial = 0, tangential = 0, axial = 0;  // m
-  double inclination = 0, skew = 0;              // deg
-};
 
 const Rows<Misalignment> kMisalignmentRows = {
     {"<gear>_radial_offset", &Misalignment::radial, "m", "drive: of the axis, away from the mate's"},
@@ -47,39 +41,22 @@ void check(const Options& options, const DriveMember& member, const Misalignment
   within("_skew", m.skew, kMostAngle, "deg");
 }
 
-// The direction of the common perpendicular from the mate's axis to the member's own one.
-Vector3d away_from_mate(const Drive& drive, int i) {
-  for (const DrivePair& pair : drive.pairs) {
-    if (pair.first != i && pair.second != i) continue;
-    const DriveMember &own = drive.members[i], &mate = drive.members[pair.first + pair.second - i];
-    return (own.position - mate.position).normalized();
-  }
-  return Vector3d::UnitX();
-}
-
 }  // namespace
 
 OptionTable misalignment_table() { return table_of(kMisalignmentRows); }
 
 void misalign(const Options& options, Drive& drive) {
-  std::vector<Vector3d> away;
-  for (std::size_t i = 0; i < drive.members.size(); ++i)
-    away.push_back(away_from_mate(drive, static_cast<int>(i)));
-  for (std::size_t i = 0; i < drive.members.size(); ++i) {
-    DriveMember& member = drive.members[i];
+  constexpr double kDegree = std::numbers::pi / 180;  // rad
+  std::vector<Misalignment> all;
+  for (const DriveMember& member : drive.members) {
     Misalignment m;
     read_rows(options, kMisalignmentRows, m, member.name);
     check(options, member, m);
-    const Eigen::Matrix3d R = rotation_matrix(member.rotation);
-    const Vector3d axis = R.col(2), tangential = axis.cross(away[i]);
-    const double degree = std::numbers::pi / 180;
-    const Eigen::Matrix3d tilt =
-        rotation_matrix(Vector3d(degree * (m.inclination * tangential - m.skew * away[i])));
-    member.position += m.radial * away[i] + m.tangential * tangential + m.axial * axis;
-    member.angle += m.axial / member.toothing.p;  // as on a screw: its flanks stay where they meet the mate's
-    const Eigen::AngleAxisd rotation(Eigen::Matrix3d(tilt * R));
-    member.rotation = rotation.angle() * rotation.axis();
+    m.inclination *= kDegree;
+    m.skew *= kDegree;
+    all.push_back(m);
   }
+  drive::misalign(drive, all);
 }
 
 }  // namespace elastogear::app

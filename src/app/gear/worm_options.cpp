@@ -8,8 +8,6 @@
 #include "app/gear/design_options.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
-#include "elastogear/gear/wheel.h"
-#include "elastogear/gear/worm.h"
 
 namespace elastogear::app {
 namespace {
@@ -188,7 +186,7 @@ void refuse_locked(const Options& options, const Drive& drive) {
       options.choice("side", {"drive", "coast"}) == 0)
     return;
   const double friction = options.number("contact_friction");
-  for (const Fact& fact : drive.pairs.front().facts)
+  for (const Fact& fact : drive.pair_facts.front())
     require(fact.name != kLocking || friction < fact.figures[0].value,
             "the worm locks itself: with the friction ", friction,
             " (option -contact_friction) the wheel cannot drive it (side: coast), whatever its torque; ",
@@ -196,42 +194,10 @@ void refuse_locked(const Options& options, const Drive& drive) {
             ", tan(lead angle) cos(pressure angle)");
 }
 
-// Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
-// half the backlash; a driving worm pushes the wheel from behind. A left-handed wheel turns the other way.
-Drive worm_drive(const Options& options) {
+Drive worm_drive(const Options& options, const drive::Start& start) {
   const Design d = worm_design(options);
   const Geometry g = gear::derive(d);
-  const double turned = 2 * pi * options.number("roll") / d.z1;
-  const double hand = d.hand == gear::Hand::left ? -1 : 1;
-  const double closing = g.j_n / 2 / (g.wheel.r * std::cos(g.alpha_w) * std::cos(g.gamma_w));
-  const double sense = options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
-  DriveMember worm{.name = "worm",
-                   .toothing = g.worm,
-                   .mesh =
-                       [d](const MeshDensity& by, mesh::ReadReport&) {
-                         const gear::WormCounts n = gear::worm_counts(by.size, d.z1, by.order);
-                         return gear::worm_mesh(d, gear::refined(n, d.z1, by.refinement));
-                       },
-                   .is_worm = true,
-                   .held = "seats"};
-  worm.position = {0, d.a, 0};
-  worm.rotation = Eigen::Vector3d::Constant(2 * pi / 3 / std::sqrt(3.0));
-  worm.angle = turned;
-  worm.width = d.thread_length;
-  DriveMember wheel{.name = "wheel",
-                    .toothing = g.wheel,
-                    .mesh =
-                        [d](const MeshDensity& by, mesh::ReadReport&) {
-                          const gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
-                          return gear::wheel_mesh(d, gear::refined(n, by.refinement));
-                        },
-                    .held = "bore"};
-  wheel.angle = hand * (turned / g.ratio - sense * closing);
-  wheel.ratio = hand / g.ratio;
-  wheel.width = d.face_width;
-  Drive drive{.members = {worm, wheel}, .facts = {worm_facts(d, g), wheel_facts(d, g)}, .pairs = {}};
-  drive.pairs.push_back({0, 1, pair_facts(d, g)});
-  return drive;
+  return {drive::worm_drive(d, g, start), {worm_facts(d, g), wheel_facts(d, g)}, {pair_facts(d, g)}};
 }
 
 }  // namespace elastogear::app

@@ -7,7 +7,7 @@
 namespace elastogear::app {
 
 OptionTable worm_table();
-Drive worm_drive(const Options& options);
+Drive worm_drive(const Options& options, const drive::Start& start);
 
 /// Throws Error where the wheel of a worm drive is to drive a worm that friction locks.
 void refuse_locked(const Options& options, const Drive& drive);

@@ -1,0 +1,46 @@
+#include <cmath>
+#include <numbers>
+
+#include "elastogear/drive/drive.h"
+#include "elastogear/gear/wheel.h"
+#include "elastogear/gear/worm.h"
+
+namespace elastogear::drive {
+
+using std::numbers::pi;
+
+// Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
+// half the backlash; a driving worm pushes the wheel from behind. A left-handed wheel turns the other way.
+Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, const Start& start) {
+  const gear::Geometry& g = geometry;
+  const double turned = 2 * pi * start.roll / design.z1;
+  const double hand = design.hand == gear::Hand::left ? -1 : 1;
+  const double closing = g.j_n / 2 / (g.wheel.r * std::cos(g.alpha_w) * std::cos(g.gamma_w));
+  const double sense = start.coasts ? -1 : 1;
+  Member worm, wheel;
+  worm.name = "worm";
+  worm.toothing = g.worm;
+  worm.mesh = [design](const MeshDensity& by, mesh::ReadReport&) {
+    const gear::WormCounts n = gear::worm_counts(by.size, design.z1, by.order);
+    return gear::worm_mesh(design, gear::refined(n, design.z1, by.refinement));
+  };
+  worm.is_worm = true;
+  worm.held = "seats";
+  worm.position = {0, design.a, 0};
+  worm.rotation = Eigen::Vector3d::Constant(2 * pi / 3 / std::sqrt(3.0));
+  worm.angle = turned;
+  worm.width = design.thread_length;
+  wheel.name = "wheel";
+  wheel.toothing = g.wheel;
+  wheel.mesh = [design](const MeshDensity& by, mesh::ReadReport&) {
+    const gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
+    return gear::wheel_mesh(design, gear::refined(n, by.refinement));
+  };
+  wheel.held = "bore";
+  wheel.angle = hand * (turned / g.ratio - sense * closing);
+  wheel.ratio = hand / g.ratio;
+  wheel.width = design.face_width;
+  return {{worm, wheel}, {{0, 1}}};
+}
+
+}  // namespace elastogear::drive
