@@ -22,14 +22,6 @@ std::string numbered(const char* kind, const std::vector<std::int64_t>& numbers,
   return std::string(kind) + " " + std::to_string(numbers[at]);
 }
 
-// "10, 11, 12, 13"; the third node that a triangle repeats once.
-std::string face_nodes(const Mesh& mesh, const Face& face) {
-  std::string text;
-  for (std::size_t i = 0; i < (face[3] == face[2] ? 3u : 4u); ++i)
-    text += (i == 0 ? "" : ", ") + node_text(mesh, face[i]);
-  return text;
-}
-
 // The faces of all cells, in the order of their keys.
 class FaceIndex {
  public:
@@ -94,6 +86,13 @@ void validate_cells(const Mesh& mesh, const std::string& source) {
 std::string node_text(const Mesh& mesh, int node) { return numbered("node", mesh.node_number, node); }
 std::string cell_text(const Mesh& mesh, int cell) { return numbered("cell", mesh.cell_number, cell); }
 
+std::string face_text(const Mesh& mesh, const Face& face) {
+  std::string text;
+  for (std::size_t i = 0; i < (face[3] == face[2] ? 3u : 4u); ++i)
+    text += (i == 0 ? "" : ", ") + node_text(mesh, face[i]);
+  return text;
+}
+
 void Cells::add(CellType t, std::span<const int> cell_nodes) {
   type.push_back(t);
   nodes.insert(nodes.end(), cell_nodes.begin(), cell_nodes.end());
@@ -125,7 +124,7 @@ void validate(const Mesh& mesh, const std::string& source) {
   for (const auto& [name, members] : mesh.face_sets)
     for (const Face& face : members)
       if (index.count(face_key(face)) == 0)
-        fail(source, ": face set '", name, "' holds the face of ", face_nodes(mesh, face),
+        fail(source, ": face set '", name, "' holds the face of ", face_text(mesh, face),
              ", which is no face of a cell");
 }
 

@@ -63,6 +63,8 @@ struct Mesh {
 /// "node 4711", "cell 500011" by the number of the mesh's file, or "node 16 (counted from 0)".
 std::string node_text(const Mesh& mesh, int node);
 std::string cell_text(const Mesh& mesh, int cell);
+/// "node 10, node 11, node 12, node 13"; the node that a triangle repeats once.
+std::string face_text(const Mesh& mesh, const Face& face);
 
 /// The cell's sides in the numbering of Abaqus (S1..S6), each as faces that point outward. A side of a linear
 /// cell is one face. A side of a second-order cell is cut so that all its nodes take part and both of its

@@ -50,8 +50,9 @@ std::vector<BoundaryFace> select_faces(const mesh::Mesh& mesh, const std::vector
   for (const std::string& name : face_sets)
     for (const Face& face : mesh::face_set(mesh, name)) {
       const auto found = boundary.find(mesh::face_key(face));
-      require(found != boundary.end(), "face set '", name, "' holds the face (", face[0], ", ", face[1], ", ",
-              face[2], ", ", face[3], "), which is inside the body");
+      if (found == boundary.end())
+        fail("face set '", name, "' holds the face of ", mesh::face_text(mesh, face),
+             ", which is inside the body");
       selected.push_back(found->second);
     }
   return selected;
