@@ -82,9 +82,10 @@ void print_other_errors(const recovery::RecoveredBody& body, const io::StressSet
   print_error_by("the contact's resolution", set, set.contact_error);
   if (moves || set.time_error.size() > 0) print_error_by("the steps in time", set, set.time_error);
   print_whole_error(set);
-  warn_above(set, set.mesh_error,
-             "too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
-             "(-element_order 2)");
+  warn_above(
+      set, set.mesh_error,
+      "too coarse a mesh for this stress; take a finer one there, or elements of second order in place of "
+      "first");
   warn_above(set, set.contact_error,
              "this stress lies beside a contact that faces there are too wide to resolve; take those of the "
              "root's other nodes, or a finer mesh there");

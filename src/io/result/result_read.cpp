@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "elastogear/base/number.h"
 #include "elastogear/io/result_file.h"
 #include "io/hdf5/schema.h"
 #include "io/result/contact_forces.h"
@@ -125,7 +126,9 @@ bool is_complete(const std::string& path) {
 TimeAxis time_axis(const std::map<std::string, std::string>& provenance) {
   const auto analysis = provenance.find("option_analysis");
   if (analysis != provenance.end() && analysis->second == "sweep") return {"roll angle", "pitches"};
-  if (analysis != provenance.end() && analysis->second == "static") return {"load factor", "1"};
+  const auto under_load = provenance.find("option_time_under_load");
+  const bool creeps = under_load != provenance.end() && parse<double>(under_load->second).value_or(1) > 0;
+  if (analysis != provenance.end() && analysis->second == "static" && !creeps) return {"load factor", "1"};
   return {"time", "s"};
 }
 
