@@ -76,7 +76,7 @@ FactsByName drive_facts(const Given& given) {
   for (std::size_t i = 0; i < drive.members.size(); ++i)
     facts[drive.members[i].name] = fact_list(drive.facts[i]);
   for (std::size_t i = 0; i < drive.pairs.size(); ++i)
-    facts[app::pair_name(drive, drive.pairs[i])] = fact_list(drive.pair_facts[i]);
+    facts[pair_name(drive, drive.pairs[i])] = fact_list(drive.pair_facts[i]);
   return facts;
 }
 

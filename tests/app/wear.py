@@ -51,9 +51,20 @@ def check_error_by_mesh(run):
     for gear, (depth, error) in fine.items():
         expected = depth * max(share[gear], sum(share.values()) / 2)
         assert error > 0 and abs(error / expected - 1) < 1e-9, (gear, error, expected)
-    assert text.count("by the mesh") == 5, text  # of a sweep, two depths and two masses
+    assert text.count(" +- ") == 4 and "by the mesh alone" in text, text
     with h5py.File("drive_wear.h5") as file:
         assert abs(file["wheel/largest_depth_mesh_error"][-1] / fine["wheel"][1] - 1) < 1e-12
+    text = run("wear", "-revolutions", "1e12", "-limit", "1 um")  # the depth is known then, and the revolutions are not
+    assert re.search(r"wear +\d+ \+- \d+ revolutions", text) and "largest depth 1 um, worn" in text, text
+    before = largest_depths(), os.stat("drive_wear_pinion.csv").st_mtime_ns
+    run("wear", "-revolutions", "1000", "-sweep_positions", "1", fails="has 1 position")
+    assert (largest_depths(), os.stat("drive_wear_pinion.csv").st_mtime_ns) == before
+    assert not [name for name in os.listdir() if "partial" in name]
+    run("wear", "-revolutions", "1000", "-output", "drive_meshes/1/pinion.h5", fails="would overwrite drive_meshes/1/pinion.h5")
+    run("reduce", "-refinement", "1.5", "-wheel_material_E", "3 GPa", "-wheel_material_nu", "0.4", "-wheel_material_rho", "1140")
+    text = run("wear", "-revolutions", "1000")
+    assert all(error is None for _, error in largest_depths().values()) and "left out" in text, text
+    run("reduce", "-pinion_refinement", "2", fails="all gears of a drive have one refinement")
     run("reduce", "-refinement", "1.5", "-face_width", "8 mm")
     run("wear", "-revolutions", "1000", "-face_width", "8 mm")
     assert all(error is None for _, error in largest_depths().values())

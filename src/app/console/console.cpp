@@ -157,6 +157,15 @@ std::string rounded_to(double error, double value) {
   return text;
 }
 
+std::string with_error(double value, double error, const std::string& unit) {
+  constexpr double kFixed = 1e-6;  // below which errors are written with an exponent
+  if (!(error > 0)) return with_unit(value, unit);
+  if (error >= kFixed) return rounded_to(error, value) + " +- " + rounded_to(error, error) + " " + unit;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.4g +- %.2g ", value, error);
+  return text + unit;
+}
+
 std::string percent(double share) {
   char text[32];
   constexpr double kTwoDigits = 0.0995;  // from which on whole percents have two digits or more

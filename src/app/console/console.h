@@ -40,6 +40,8 @@ std::string with_unit(double value, const std::string& unit);
 std::string short_number(double value);
 /// Number whose last digit is the second one of its error, which is positive.
 std::string rounded_to(double error, double value);
+/// "0.0595 +- 0.0021 um", "3.92e-05 +- 2.1e-07 g"; without an error (0) with_unit.
+std::string with_error(double value, double error, const std::string& unit);
 /// A share in percent: two digits below 10 %, whole percents above.
 std::string percent(double share);
 /// with_unit of a length in m, in mm.

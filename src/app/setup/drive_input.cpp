@@ -1,6 +1,7 @@
 #include "app/setup/drive_input.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 #include "app/console/console.h"
@@ -120,6 +121,25 @@ void require_body(const Options& of_reduce, const DriveMember& member) {
 void require_bodies(const Options& options, const Drive& drive) {
   const Options of_reduce = options.of_verb("reduce", reduce_verb().table);
   for (const DriveMember& member : drive.members) require_body(of_reduce, member);
+}
+
+std::string differing_option(const std::string& body, const std::string& other) {
+  const auto all = io::read_provenance(body), of_other = io::read_provenance(other);
+  const auto differs = [](const Provenance& here, const Provenance& there) -> std::string {
+    constexpr const char *kPrefix = "option_", *kFree[] = {"refinement", "modes", "eps_nev", "eps_interval"};
+    for (const auto& [key, value] : here) {
+      if (!key.starts_with(kPrefix)) continue;
+      const std::string name = key.substr(std::strlen(kPrefix));
+      if (weight_for_bodies(name) == Weight::none ||
+          std::find(std::begin(kFree), std::end(kFree), name) != std::end(kFree))
+        continue;
+      const auto found = there.find(key);
+      if (found == there.end() || found->second != value) return name;
+    }
+    return "";
+  };
+  const std::string name = differs(all, of_other);
+  return name.empty() ? differs(of_other, all) : name;
 }
 
 void require_input(const Options& options, const std::string& file) {

@@ -12,6 +12,10 @@ namespace elastogear::app {
 /// left out.
 void require_bodies(const Options& options, const Drive& drive);
 
+/// The first option on which bodies depend that two body files were made of differently, but for how fine
+/// their meshes are and how many modes they have; empty: there is none.
+std::string differing_option(const std::string& body, const std::string& other);
+
 /// Throws Error unless `file`, a result or what was recovered of it, is of these options: it names the keys
 /// that differ with both values. What was made without a drive file is left out.
 void require_input(const Options& options, const std::string& file);

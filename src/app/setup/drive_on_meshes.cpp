@@ -1,10 +1,12 @@
 #include "app/setup/drive_on_meshes.h"
 
-#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <sstream>
+#include <system_error>
 
-#include "app/console/console.h"
 #include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -30,17 +32,38 @@ Options with_bodies_in(const std::string& folder, Options options, const Drive& 
   return options;
 }
 
-// Are all bodies there, of this input?
-bool has_all_bodies(const Options& options, const Drive& drive) {
-  const Silence silence;
-  for (const DriveMember& member : drive.members)
-    if (!fs::is_regular_file(body_file(options, member))) return false;
-  try {
-    require_bodies(options, drive);
-    return true;
-  } catch (const Error&) {
-    return false;
+// As `run` writes it in the name of a folder; infinite in other names.
+double refinement_in(const std::string& name) {
+  const auto number = parse<double>(name);
+  std::ostringstream text;
+  if (number) text << *number;
+  return number && *number > 0 && text.str() == name ? *number : INFINITY;
+}
+
+// Why the bodies of a coarser mesh do not serve; empty: they do.
+std::string obstacle(const Options& own, const Options& coarser, const Drive& drive) {
+  for (const DriveMember& member : drive.members) {
+    const std::string file = body_file(coarser, member);
+    try {
+      if (!fs::is_regular_file(file)) return file + " is not there";
+      const std::string option = differing_option(body_file(own, member), file);
+      if (!option.empty()) return file + " has another " + option;
+    } catch (const Error& error) {
+      return error.what();
+    }
   }
+  return "";
+}
+
+// Of all gears' own bodies; nothing: they do not say it or differ.
+std::optional<double> own_refinement(const Options& options, const Drive& drive) {
+  std::optional<double> own;
+  for (const DriveMember& member : drive.members) {
+    const auto refinement = refinement_of(body_file(options, member));
+    if (!refinement || (own && *own != *refinement)) return {};
+    own = refinement;
+  }
+  return own;
 }
 
 }  // namespace
@@ -54,19 +77,31 @@ std::vector<double> DriveOnMeshes::refinements() const {
   return all;
 }
 
+std::vector<std::string> DriveOnMeshes::bodies(const Drive& drive) const {
+  std::vector<std::string> files;
+  for (const DriveOnMesh& mesh : coarser)
+    for (const DriveMember& member : drive.members) files.push_back(body_file(mesh.options, member));
+  return files;
+}
+
 DriveOnMeshes drive_on_meshes(const Options& options, const Drive& drive) {
-  const std::string folder = folder_of_meshes(options);
-  const auto own = refinement_of(body_file(options, drive.members.front()));
-  if (!own || !fs::is_directory(folder)) return {};
+  const auto own = own_refinement(options, drive);
+  if (!own) return {};
   DriveOnMeshes meshes{*own};
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto refinement = parse<double>(entry.path().filename().string());
-    if (!refinement || !(*refinement > 0 && *refinement < *own)) continue;
-    Options coarser = with_bodies_in(entry.path().string(), options, drive);
-    if (has_all_bodies(coarser, drive)) meshes.coarser.push_back({*refinement, std::move(coarser)});
+  std::map<double, std::string> folders;  // the coarsest first
+  std::error_code none;
+  for (fs::directory_iterator at(folder_of_meshes(options), none), end; !none && at != end;
+       at.increment(none))
+    if (const auto refinement = refinement_in(at->path().filename().string()); refinement < *own)
+      folders[refinement] = at->path().string();
+  for (const auto& [refinement, folder] : folders) {
+    Options coarser = with_bodies_in(folder, options, drive);
+    const std::string why = obstacle(options, coarser, drive);
+    if (why.empty())
+      meshes.coarser.push_back({refinement, std::move(coarser)});
+    else
+      meshes.left_out.push_back(why);
   }
-  std::sort(meshes.coarser.begin(), meshes.coarser.end(),
-            [](const DriveOnMesh& a, const DriveOnMesh& b) { return a.refinement < b.refinement; });
   return meshes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies of a drive on coarser meshes, as `run` leaves them, for estimated errors by the mesh.
 
+#include <string>
 #include <vector>
 
 #include "app/gear/drive_options.h"
@@ -20,12 +21,16 @@ std::string folder_of_meshes(const Options& options);
 struct DriveOnMeshes {
   double refinement = 1;  ///< of the drive's own bodies
   std::vector<DriveOnMesh> coarser = {};
+  std::vector<std::string> left_out = {};  ///< what is there and does not serve, and why
 
   /// All of them, ascending.
   std::vector<double> refinements() const;
+  /// Their body files.
+  std::vector<std::string> bodies(const Drive& drive) const;
 };
 
-/// Meshes of another input are left out; so are all where the bodies do not say how fine they are.
+/// Left out are meshes of another input than that of the drive's own bodies, and all of them where these do
+/// not say how fine they are or are not equally fine.
 DriveOnMeshes drive_on_meshes(const Options& options, const Drive& drive);
 
 }  // namespace elastogear::app

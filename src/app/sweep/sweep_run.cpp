@@ -177,6 +177,10 @@ bool compute(SweepJob& job, const std::vector<SweepUnit>& units, WorkQueue& queu
   return true;
 }
 
+const char* resumption(const Options& options) {
+  return options.text("resume") == "discard" ? "" : "; the same command goes on from there";
+}
+
 // Sweeps what is left on all ranks. Error on all of them when one fails or is stopped.
 void compute_all(SweepJob& job, const std::vector<SweepUnit>& todo,
                  const std::function<std::string()>& stop_cause) {
@@ -185,11 +189,10 @@ void compute_all(SweepJob& job, const std::vector<SweepUnit>& todo,
     try {
       const bool all = compute(job, todo, queue, [&] { return !stop_cause().empty(); });
       require(all && stop_cause().empty(), "stopped by ", stop_cause(), ". What was found is in ",
-              job.store.folder(), "; the same command goes on from there");
+              job.store.folder(), resumption(job.options));
     } catch (const WriteFailure& failure) {
       queue.close();
-      fail(failure.what(), ". What was found is kept in ", job.store.folder(),
-           "; the same command goes on from there");
+      fail(failure.what(), ". What was found is kept in ", job.store.folder(), resumption(job.options));
     } catch (...) {
       queue.close();
       throw;

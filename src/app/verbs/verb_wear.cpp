@@ -22,9 +22,7 @@ std::string output_of(const Options& options) {
   return options.given("output") ? options.text("output") : drive_stem(options) + "_wear.h5";
 }
 
-std::string sweep_file(const std::string& output) {
-  return std::filesystem::path(output).replace_extension().string() + "_sweep.h5";
-}
+std::string sweep_file(const std::string& output) { return without_end(output) + "_sweep.h5"; }
 
 std::vector<WearingGear> wearing_gears(const Options& options, const Drive& drive,
                                        const WearSettings& settings) {
@@ -42,6 +40,31 @@ std::vector<WearingGear> wearing_gears(const Options& options, const Drive& driv
   return gears;
 }
 
+// Worn flanks of a run under way, and sweeps of coarser meshes, have the names of another output: earlier
+// results stand until there are new ones.
+class WorkFiles {
+ public:
+  WorkFiles(const std::string& output, const Drive& drive) : output_(without_end(output) + ".partial.h5") {
+    files_ = {sweep_file(output_), sweep_file(output_) + ".partial"};
+    for (const DriveMember& member : drive.members) files_.push_back(worn_flanks_file(output_, member.name));
+    clear();
+  }
+  WorkFiles(const WorkFiles&) = delete;
+  WorkFiles& operator=(const WorkFiles&) = delete;
+  ~WorkFiles() { clear(); }
+
+  const std::string& output() const { return output_; }
+
+ private:
+  void clear() const {
+    std::error_code none;
+    for (const std::string& file : files_) std::filesystem::remove_all(file, none);
+  }
+
+  std::string output_;
+  std::vector<std::string> files_;
+};
+
 // m by revolution of the first gear, on each side of the gear's teeth.
 Eigen::MatrixXd rate(const WearingGear& gear, const Eigen::MatrixXd& passed) {
   return gear.material.coefficient * std::abs(gear.member->ratio) * life::depth(gear.cells, passed);
@@ -51,15 +74,16 @@ void write_flanks(const std::vector<WearingGear>& gears, const std::string& outp
   for (const WearingGear& gear : gears) write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
 }
 
-// The sweep of the drive with flanks that are worn so far.
-void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, const std::string& output) {
+// The sweep of the drive with flanks that are worn so far. flanks: output whose worn flanks they are.
+void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, const std::string& flanks,
+                const std::string& sweep) {
+  write_flanks(gears, flanks);
   Options of_sweep = options;
   of_sweep.set("analysis", "sweep");
-  of_sweep.set("output", sweep_file(output));
+  of_sweep.set("output", sweep);
   of_sweep.set("resume", "discard");  // an earlier one had other flanks
   for (const WearingGear& gear : gears)
-    of_sweep.set(gear.member->name + "_wear", worn_flanks_file(output, gear.member->name));
-  std::filesystem::remove(sweep_file(output));
+    of_sweep.set(gear.member->name + "_wear", worn_flanks_file(flanks, gear.member->name));
   run_sweep(of_sweep);
 }
 
@@ -77,16 +101,15 @@ WearRates rates(const std::vector<WearingGear>& gears, const std::vector<PassedV
 
 // Rates of unworn flanks on coarser meshes, for estimated errors of the wear by the mesh.
 std::vector<WearRates> rates_on(const std::vector<DriveOnMesh>& coarser, const Drive& drive,
-                                const WearSettings& settings, const std::string& output) {
+                                const WearSettings& settings, const std::string& work) {
   std::vector<WearRates> found;
   for (const DriveOnMesh& mesh : coarser) {
     print_item("sweep", "counts " + short_number(mesh.refinement) +
                             " times those of the size, for the estimated error by the mesh");
     const Silence silence;
     const std::vector<WearingGear> gears = wearing_gears(mesh.options, drive, settings);
-    write_flanks(gears, output);
-    sweep_worn(mesh.options, gears, output);
-    found.push_back(rates(gears, passed_volume(sweep_file(output), drive, gears)));
+    sweep_worn(mesh.options, gears, work, sweep_file(work));
+    found.push_back(rates(gears, passed_volume(sweep_file(work), drive, gears)));
   }
   return found;
 }
@@ -109,31 +132,33 @@ double next_step(const WearSettings& settings, const std::vector<WearingGear>& g
 }
 
 // Why the run ends; empty when it goes on.
-std::string end_of(const WearSettings& settings, const std::vector<WearingGear>& gears, double done) {
-  if (done >= settings.revolutions * (1 - 1e-12)) return "all revolutions are done";
-  for (const WearingGear& gear : gears)
-    if (settings.limit > 0 && largest_depth(gear) >= settings.limit * (1 - 1e-9))
-      return gear.member->name + " reaches the limit of depth";
+std::string end_of(const WearSettings& settings, const std::vector<WearingGear>& gears, WearCourse& course) {
+  if (course.revolutions.back() >= settings.revolutions * (1 - 1e-12)) return "all revolutions are done";
+  for (std::size_t i = 0; i < gears.size(); ++i)
+    if (settings.limit > 0 && largest_depth(gears[i]) >= settings.limit * (1 - 1e-9)) {
+      course.limited_by = static_cast<int>(i);
+      return gears[i].member->name + " reaches the limit of depth";
+    }
   return "";
 }
 
 WearCourse wear_down(const Options& options, const Drive& drive, const WearSettings& settings,
-                     std::vector<WearingGear>& gears, const std::string& output, std::string& why) {
+                     std::vector<WearingGear>& gears, const std::string& flanks, const std::string& file,
+                     std::string& why) {
   WearCourse course;
   note(course, gears, 0);
   for (int sweep = 0; why.empty(); ++sweep) {
     require(sweep < settings.most_sweeps, options.label("most_sweeps"), ": ", sweep, " sweeps reach ",
             course.revolutions.back(), " of ", settings.revolutions,
             " revolutions; a larger increment takes fewer");
-    write_flanks(gears, output);
-    sweep_worn(options, gears, output);
-    const std::vector<PassedVolume> passed = passed_volume(sweep_file(output), drive, gears);
+    sweep_worn(options, gears, flanks, file);
+    const std::vector<PassedVolume> passed = passed_volume(file, drive, gears);
     if (sweep == 0) course.first = rates(gears, passed);
     const double done = course.revolutions.back(), step = next_step(settings, gears, passed, done);
     for (std::size_t i = 0; i < gears.size(); ++i)
       for (int side = 0; side < 2; ++side) gears[i].depth[side] += step * rate(gears[i], passed[i].of[side]);
     note(course, gears, done + step);
-    why = end_of(settings, gears, done + step);
+    why = end_of(settings, gears, course);
   }
   return course;
 }
@@ -159,6 +184,18 @@ void refuse_single_teeth(const Drive& drive, const Options& options) {
   }
 }
 
+void protect(const Options& options, const Drive& drive, const DriveOnMeshes& meshes,
+             const std::string& output) {
+  Outputs outputs{"output", course_files(output)};
+  outputs.files.insert(outputs.files.end(), {output, sweep_file(output)});
+  std::vector<std::string> bodies = meshes.bodies(drive);
+  for (const DriveMember& member : drive.members) {
+    outputs.files.push_back(worn_flanks_file(output, member.name));
+    bodies.push_back(body_file(options, member));
+  }
+  protect_inputs(options, {outputs}, bodies);
+}
+
 void run_wear(const Options& given, const std::vector<std::string>&) {
   use_one_blas_thread();
   require(is_drive(given), "needs a drive file: elastogear wear drive.yaml (docs/drives.md)");
@@ -171,19 +208,15 @@ void run_wear(const Options& given, const std::vector<std::string>&) {
   const WearSettings settings = wear_settings(options);
   const std::string output = output_of(options);
   std::vector<WearingGear> gears = wearing_gears(options, drive, settings);
-  Outputs outputs{"output", course_files(output)};
-  outputs.files.insert(outputs.files.end(), {output, sweep_file(output)});
-  std::vector<std::string> bodies;
-  for (const DriveMember& member : drive.members) {
-    outputs.files.push_back(worn_flanks_file(output, member.name));
-    bodies.push_back(body_file(options, member));
-  }
-  protect_inputs(options, {outputs}, bodies);
-  const OutputLock lock(output);
-  std::string why;
   const DriveOnMeshes meshes = drive_on_meshes(options, drive);
-  const std::vector<WearRates> on_coarser = rates_on(meshes.coarser, drive, settings, output);
-  WearCourse course = wear_down(options, drive, settings, gears, output, why);
+  protect(options, drive, meshes, output);
+  const OutputLock lock(output);
+  for (const std::string& left_out : meshes.left_out)
+    print_item("left out", left_out + ", for the estimated error by the mesh; elastogear run makes it anew");
+  const WorkFiles work(output, drive);
+  const std::vector<WearRates> on_coarser = rates_on(meshes.coarser, drive, settings, work.output());
+  std::string why;
+  WearCourse course = wear_down(options, drive, settings, gears, work.output(), sweep_file(output), why);
   estimate_errors(course, on_coarser, meshes.refinements());
   write_flanks(gears, output);
   for (const WearingGear& gear : gears) print_item("written", worn_flanks_file(output, gear.member->name));

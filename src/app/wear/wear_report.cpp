@@ -13,10 +13,6 @@
 namespace elastogear::app {
 namespace {
 
-std::string without_end(const std::string& output) {
-  return std::filesystem::path(output).replace_extension().string();
-}
-
 Eigen::VectorXd middles(const Eigen::VectorXd& edges) {
   const Eigen::Index n = edges.size() - 1;
   return (edges.head(n) + edges.tail(n)) / 2;
@@ -47,15 +43,24 @@ std::vector<double> error_shares(const std::vector<std::vector<double>>& rates,
   return error;
 }
 
-// "0.5955 +- 0.0081 um by the mesh".
-std::string figure(double value, const std::vector<double>& error, std::size_t gear,
-                   const std::string& unit) {
-  const double by_mesh = error.empty() ? 0 : error[gear] * value;
-  if (!(by_mesh > 0)) return with_unit(value, unit);
-  return rounded_to(by_mesh, value) + " +- " + rounded_to(by_mesh, by_mesh) + " " + unit + " by the mesh";
+// m and revolutions, at the end. A depth that has ended the run is known, and the revolutions are not.
+double depth_error(const WearCourse& course, std::size_t gear) {
+  const bool known = course.error.depth.empty() || course.limited_by == static_cast<int>(gear);
+  return known ? 0 : course.error.depth[gear] * course.depth[gear].back();
+}
+double mass_error(const WearCourse& course, std::size_t gear) {
+  return course.error.mass.empty() ? 0 : course.error.mass[gear] * course.mass[gear].back();
+}
+double revolutions_error(const WearCourse& course) {
+  if (course.error.depth.empty() || course.limited_by < 0) return 0;
+  return course.error.depth[static_cast<std::size_t>(course.limited_by)] * course.revolutions.back();
 }
 
 }  // namespace
+
+std::string without_end(const std::string& output) {
+  return std::filesystem::path(output).replace_extension().string();
+}
 
 void estimate_errors(WearCourse& course, std::vector<WearRates> on_meshes,
                      const std::vector<double>& refinement) {
@@ -104,6 +109,7 @@ void write_course(const std::string& output, const WearCourse& course, const std
                   const std::string& why) {
   std::vector<io::CsvColumn> columns = {{"revolutions", "1", column(course.revolutions)}};
   nlohmann::ordered_json json = {{"ended", why}, {"revolutions_of_first_gear", course.revolutions.back()}};
+  if (!course.error.depth.empty()) json["revolutions_mesh_error"] = revolutions_error(course);
   for (std::size_t i = 0; i < gears.size(); ++i) {
     const std::string& name = gears[i].member->name;
     columns.push_back({"largest depth of " + name, "m", column(course.depth[i])});
@@ -113,8 +119,8 @@ void write_course(const std::string& output, const WearCourse& course, const std
                                    {"worn_mass_kg", course.mass[i].back()},
                                    {"flanks", worn_flanks_file(output, name)}};
     if (!course.error.depth.empty()) {
-      gear["largest_depth_mesh_error_m"] = course.error.depth[i] * course.depth[i].back();
-      gear["worn_mass_mesh_error_kg"] = course.error.mass[i] * course.mass[i].back();
+      gear["largest_depth_mesh_error_m"] = depth_error(course, i);
+      gear["worn_mass_mesh_error_kg"] = mass_error(course, i);
     }
     json["gears"].push_back(std::move(gear));
   }
@@ -137,11 +143,18 @@ io::WearFile wear_file(const WearCourse& course, const std::vector<WearingGear>&
 }
 
 void print_wear(const WearCourse& course, const std::vector<WearingGear>& gears, const std::string& why) {
-  print_item("wear", with_unit(course.revolutions.back(), "revolutions of the first gear") + ", " + why);
+  print_item("wear", with_error(course.revolutions.back(), revolutions_error(course),
+                                "revolutions of the first gear") +
+                         ", " + why);
   for (std::size_t i = 0; i < gears.size(); ++i)
-    print_item(gears[i].member->name,
-               "largest depth " + figure(1e6 * course.depth[i].back(), course.error.depth, i, "um") +
-                   ", worn mass " + figure(1e3 * course.mass[i].back(), course.error.mass, i, "g"));
+    print_item(
+        gears[i].member->name,
+        "largest depth " + with_error(1e6 * course.depth[i].back(), 1e6 * depth_error(course, i), "um") +
+            ", worn mass " + with_error(1e3 * course.mass[i].back(), 1e3 * mass_error(course, i), "g"));
+  if (!course.error.depth.empty())
+    print_item("errors",
+               "by the mesh alone; more positions (sweep_positions) and cells (cells_along, "
+               "cells_across) tell what these change");
 }
 
 }  // namespace elastogear::app

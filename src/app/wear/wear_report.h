@@ -21,15 +21,20 @@ struct WearCourse {
   WearRates first = {};                          ///< of unworn flanks
   /// Estimated errors by the mesh, as shares of depth and mass, by gear. Empty: there is no coarser mesh.
   WearRates error = {};
+  int limited_by = -1;  ///< gear whose depth has ended the run; -1: the revolutions have
 };
 
 /// Errors at the end are as large a share as those of unworn flanks, Eq. (10.15) to (10.18), depths and
-/// masses each a kind. on_coarser: rates on coarser meshes; refinement: of all meshes, ascending.
+/// masses each a kind. Where a depth has ended the run, the revolutions have the share of that depth.
+/// on_coarser: rates on coarser meshes; refinement: of all meshes, ascending.
 void estimate_errors(WearCourse& course, std::vector<WearRates> on_coarser,
                      const std::vector<double>& refinement);
 
 /// Adds the present state of the gears.
 void note(WearCourse& course, const std::vector<WearingGear>& gears, double revolutions);
+
+/// A path without the end of its name.
+std::string without_end(const std::string& output);
 
 /// The CSV file of the worn flanks of a gear, <gear>_wear of the drive file; output: the wear file.
 std::string worn_flanks_file(const std::string& output, const std::string& gear);
