@@ -47,7 +47,7 @@ std::string obstacle(const Options& own, const Options& coarser, const Drive& dr
     try {
       if (!fs::is_regular_file(file)) return file + " is not there";
       const std::string option = differing_option(body_file(own, member), file);
-      if (!option.empty()) return file + " has another " + option;
+      require(option.empty(), file, " has another ", option);
     } catch (const Error& error) {
       return error.what();
     }
