@@ -19,6 +19,9 @@ constexpr const char *kErrorEnd = "_mesh_error", *kContactErrorEnd = "_contact_e
 constexpr const char* kRootTension = "/largest_tension";
 
 constexpr const char* kLargestShare = "teeth/largest_share";
+// The largest of means over strips of a face: it changes with their width, to the first order.
+constexpr const char* kFaceLoad = "line_load/KHbeta";
+constexpr double kOrder = 2, kFaceOrder = 1;
 constexpr double kSame = 1e-12;  // share: what the figures of two meshes may differ by from roundoff
 
 // Figures that the mesh changes, beside those of roots and stiffnesses per width.
@@ -29,28 +32,21 @@ constexpr const char* kOfMesh[] = {"transmission_error/mean",
                                    "stiffness/tangent_mean",
                                    "teeth/contact_ratio",
                                    kLargestShare,
+                                   kFaceLoad,
+                                   "pressure/hertz_peak",
                                    "losses/loss_factor"};
-// The largest of means over strips of a face: it changes with their width, to the first order.
-constexpr const char* kOverFace[] = {"line_load/KHbeta", "pressure/hertz_peak"};
-constexpr const char* kFace = "face";
-constexpr double kOrder = 2, kFaceOrder = 1;
 constexpr const char* kOfRoots[] = {kRootTension, "/largest_von_mises", "/range"};
 constexpr const char *kMean = "_mean", *kPerWidth = "_per_width";  // of a stiffness
 
-template <class List>
-bool holds(const List& list, const std::string& path) {
-  return std::find(std::begin(list), std::end(list), path) != std::end(list);
-}
-
-// The class of a figure, whose errors are of a kind: one stress at all roots, largest loads of a face, or the
-// rest. Empty: the mesh does not change the figure.
+// The class of a figure, whose errors are of a kind: one stress at all roots, or the rest. Empty: the mesh
+// does not change the figure.
 std::string class_of(const EvaluationItem& item) {
   if (!item.shape.empty() || !item.words.empty()) return "";
   if (item.path.starts_with("root/"))
     for (const char* end : kOfRoots)
       if (item.path.ends_with(end)) return end;
-  if (holds(kOverFace, item.path)) return kFace;
-  return holds(kOfMesh, item.path) ? "drive" : "";
+  const bool found = std::find(std::begin(kOfMesh), std::end(kOfMesh), item.path) != std::end(kOfMesh);
+  return found ? "drive" : "";
 }
 
 double refinement_of(const io::EvaluationFile& evaluation, const std::string& file) {
@@ -118,8 +114,8 @@ std::vector<EvaluationItem> error_items(const std::vector<CoarserMesh>& coarser,
   for (const EvaluationItem& item : items) {
     const std::string name = class_of(item);
     if (name.empty()) continue;
-    const auto error =
-        error_of(coarser, group + item.path, item.value[0], refinement, name == kFace ? kFaceOrder : kOrder);
+    const double order = item.path == kFaceLoad ? kFaceOrder : kOrder;
+    const auto error = error_of(coarser, group + item.path, item.value[0], refinement, order);
     if (!error || (item.path == kLargestShare && *error <= kSame)) continue;
     Class& of = classes[name];
     of.item.push_back(&item), of.figure.push_back(item.value[0]), of.error.push_back(*error);
