@@ -94,10 +94,10 @@ def options_of(file):
 class Axis:
     """What the times of a result are: name, label, unit, factor into the unit."""
 
-    def __init__(self, analysis, last):
+    def __init__(self, analysis, last, under_load=False):
         if analysis == "sweep":
             self.name, self.unit, self.factor = "roll angle", "pitches", 1.0
-        elif analysis == "static":
+        elif analysis == "static" and not under_load:
             self.name, self.unit, self.factor = "load factor", "", 1.0
         else:
             self.name = "time"
@@ -124,7 +124,7 @@ class Case:
         self.options = options_of(result)
         self.analysis = self.options.get("analysis", "dynamic")
         self.time = result["time"][:]
-        self.axis = Axis(self.analysis, float(self.time[-1]))
+        self.axis = Axis(self.analysis, float(self.time[-1]), self.options.get("time_under_load", "0") not in ("", "0"))
         self.bodies = sorted(result["bodies"], key=lambda name: int(result["bodies"][name].attrs["number"]))
         self.peaks = [(body, name, group, results.Peak(group)) for body, name, group in results.stress_sets(stress)] if stress else []
         self.pressures = []

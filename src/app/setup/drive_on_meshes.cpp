@@ -7,6 +7,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "app/console/console.h"
 #include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -42,23 +43,31 @@ double refinement_in(const std::string& name) {
 
 // Why the bodies of a coarser mesh do not serve; empty: they do.
 std::string obstacle(const Options& own, const Options& coarser, const Drive& drive) {
+  const Silence silence;
   for (const DriveMember& member : drive.members) {
     const std::string file = body_file(coarser, member);
+    std::error_code none;
     try {
-      if (!fs::is_regular_file(file)) return file + " is not there";
+      if (!fs::is_regular_file(file, none)) return file + " is not there";
       const std::string option = differing_option(body_file(own, member), file);
       require(option.empty(), file, " has another ", option);
     } catch (const Error& error) {
       return error.what();
     }
   }
+  try {
+    require_bodies(coarser, drive);
+  } catch (const Error& error) {
+    return error.what();
+  }
   return "";
 }
 
-// Of all gears' own bodies; nothing: they do not say it or differ.
+// Of all gears' own bodies; nothing: they do not say it, differ, or have a mesh of the user's own.
 std::optional<double> own_refinement(const Options& options, const Drive& drive) {
   std::optional<double> own;
   for (const DriveMember& member : drive.members) {
+    if (!own_mesh(options, member.name).empty()) return {};
     const auto refinement = refinement_of(body_file(options, member));
     if (!refinement || (own && *own != *refinement)) return {};
     own = refinement;
@@ -102,6 +111,8 @@ DriveOnMeshes drive_on_meshes(const Options& options, const Drive& drive) {
     else
       meshes.left_out.push_back(why);
   }
+  constexpr std::size_t kUsed = 2;  // by Eq. (10.15) to (10.17), beside the drive's own
+  while (meshes.coarser.size() > kUsed) meshes.coarser.erase(meshes.coarser.begin());
   return meshes;
 }
 

@@ -177,8 +177,10 @@ bool compute(SweepJob& job, const std::vector<SweepUnit>& units, WorkQueue& queu
   return true;
 }
 
-const char* resumption(const Options& options) {
-  return options.text("resume") == "discard" ? "" : "; the same command goes on from there";
+// What the same command can go on from; one that discards earlier parts does not.
+std::string what_is_left(const SweepJob& job) {
+  if (job.options.text("resume") == "discard") return "";
+  return ". What was found is in " + job.store.folder() + "; the same command goes on from there";
 }
 
 // Sweeps what is left on all ranks. Error on all of them when one fails or is stopped.
@@ -188,11 +190,10 @@ void compute_all(SweepJob& job, const std::vector<SweepUnit>& todo,
   collectively(PETSC_COMM_WORLD, [&] {
     try {
       const bool all = compute(job, todo, queue, [&] { return !stop_cause().empty(); });
-      require(all && stop_cause().empty(), "stopped by ", stop_cause(), ". What was found is in ",
-              job.store.folder(), resumption(job.options));
+      require(all && stop_cause().empty(), "stopped by ", stop_cause(), what_is_left(job));
     } catch (const WriteFailure& failure) {
       queue.close();
-      fail(failure.what(), ". What was found is kept in ", job.store.folder(), resumption(job.options));
+      fail(failure.what(), what_is_left(job));
     } catch (...) {
       queue.close();
       throw;

@@ -48,7 +48,8 @@ using dynamics::Environment, dynamics::TimeSettings;
 
 const Rows<AnalysisSettings> kAnalysisRows = {
     {"analysis", &AnalysisSettings::kind, one_of("dynamic", "static", "relax", "sweep"),
-     "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
+     "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor, "
+     "or s under load); "
      "relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests; or "
      "sweep: equilibria of a drive at many roll angles (time in the result: pitches), with sweep_..., "
      "torques "

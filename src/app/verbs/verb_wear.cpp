@@ -41,7 +41,7 @@ std::vector<WearingGear> wearing_gears(const Options& options, const Drive& driv
 }
 
 // Worn flanks of a run under way, and sweeps of coarser meshes, have the names of another output: earlier
-// results stand until there are new ones.
+// flanks, tables and summaries stand until there are new ones. The sweep's file holds the last one.
 class WorkFiles {
  public:
   WorkFiles(const std::string& output, const Drive& drive) : output_(without_end(output) + ".partial.h5") {
