@@ -44,26 +44,23 @@ double refinement_in(const std::string& name) {
 // Why the bodies of a coarser mesh do not serve; empty: they do.
 std::string obstacle(const Options& own, const Options& coarser, const Drive& drive) {
   const Silence silence;
-  for (const DriveMember& member : drive.members) {
-    const std::string file = body_file(coarser, member);
-    std::error_code none;
-    try {
-      if (!fs::is_regular_file(file, none)) return file + " is not there";
+  try {
+    for (const DriveMember& member : drive.members) {
+      const std::string file = body_file(coarser, member);
+      std::error_code none;
+      require(fs::is_regular_file(file, none), file, " is not there");
       const std::string option = differing_option(body_file(own, member), file);
       require(option.empty(), file, " has another ", option);
-    } catch (const Error& error) {
-      return error.what();
     }
-  }
-  try {
     require_bodies(coarser, drive);
+    return "";
   } catch (const Error& error) {
     return error.what();
   }
-  return "";
 }
 
-// Of all gears' own bodies; nothing: they do not say it, differ, or have a mesh of the user's own.
+// The refinement that the bodies of all gears have in common. There is none where a body does not say it,
+// where two differ, or where a gear has a mesh of the user's own.
 std::optional<double> own_refinement(const Options& options, const Drive& drive) {
   std::optional<double> own;
   for (const DriveMember& member : drive.members) {

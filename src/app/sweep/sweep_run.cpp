@@ -177,7 +177,8 @@ bool compute(SweepJob& job, const std::vector<SweepUnit>& units, WorkQueue& queu
   return true;
 }
 
-// What the same command can go on from; one that discards earlier parts does not.
+// Tells where the parts of a stopped sweep are that the same command goes on from. Empty where `resume`
+// discards them.
 std::string what_is_left(const SweepJob& job) {
   if (job.options.text("resume") == "discard") return "";
   return ". What was found is in " + job.store.folder() + "; the same command goes on from there";

@@ -87,14 +87,15 @@ void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, c
   run_sweep(of_sweep);
 }
 
-// What a revolution of the first gear takes off the flanks as they are.
+// Largest depth and mass that one revolution of the first gear wears off each gear at its present state of
+// wear.
 WearRates rates(const std::vector<WearingGear>& gears, const std::vector<PassedVolume>& passed) {
   WearRates rates;
   for (std::size_t i = 0; i < gears.size(); ++i) {
-    WearingGear fresh = gears[i];
-    for (int side = 0; side < 2; ++side) fresh.depth[side] = rate(gears[i], passed[i].of[side]);
-    rates.depth.push_back(largest_depth(fresh));
-    rates.mass.push_back(worn_mass(fresh));
+    const Eigen::MatrixXd by_revolution[2] = {rate(gears[i], passed[i].of[0]),
+                                              rate(gears[i], passed[i].of[1])};
+    rates.depth.push_back(std::max(by_revolution[0].maxCoeff(), by_revolution[1].maxCoeff()));
+    rates.mass.push_back(worn_mass(gears[i], by_revolution));
   }
   return rates;
 }

@@ -219,13 +219,13 @@ double largest_depth(const WearingGear& gear) {
   return std::max(gear.depth[0].maxCoeff(), gear.depth[1].maxCoeff());
 }
 
-double worn_mass(const WearingGear& gear) {
+double worn_mass(const WearingGear& gear, const Eigen::MatrixXd (&depth)[2]) {
   const life::FlankCells& cells = gear.cells;
   double volume = 0;
-  for (const Eigen::MatrixXd& depth : gear.depth)
+  for (const Eigen::MatrixXd& of_side : depth)
     for (Eigen::Index i = 0; i < cells.n_u(); ++i)
       for (Eigen::Index j = 0; j < cells.n_v(); ++j)
-        volume += depth(i, j) * cells.length[i] * (cells.v[j + 1] - cells.v[j]);
+        volume += of_side(i, j) * cells.length[i] * (cells.v[j + 1] - cells.v[j]);
   return gear.material.density * gear.member->toothing.z * volume;
 }
 

@@ -40,7 +40,7 @@ std::vector<PassedVolume> passed_volume(const std::string& result, const Drive& 
 
 /// Largest depth, m.
 double largest_depth(const WearingGear& gear);
-/// Worn mass of all teeth, kg.
-double worn_mass(const WearingGear& gear);
+/// Worn mass of all teeth, kg. depth: m, by cell of left and right flanks.
+double worn_mass(const WearingGear& gear, const Eigen::MatrixXd (&depth)[2]);
 
 }  // namespace elastogear::app

@@ -77,7 +77,7 @@ void note(WearCourse& course, const std::vector<WearingGear>& gears, double revo
   if (!course.depth.front().empty()) course.revolutions.push_back(revolutions);
   for (std::size_t i = 0; i < gears.size(); ++i) {
     course.depth[i].push_back(largest_depth(gears[i]));
-    course.mass[i].push_back(worn_mass(gears[i]));
+    course.mass[i].push_back(worn_mass(gears[i], gears[i].depth));
   }
 }
 
