@@ -22,7 +22,7 @@ std::string numbered(const char* kind, const std::vector<std::int64_t>& numbers,
   return std::string(kind) + " " + std::to_string(numbers[at]);
 }
 
-// The faces of all cells, in the order of their keys.
+// The faces of all cells, grouped by their lowest node.
 class FaceIndex {
  public:
   explicit FaceIndex(const Mesh& mesh) : begin_(static_cast<std::size_t>(mesh.n_nodes()) + 1, 0) {
