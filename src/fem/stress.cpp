@@ -37,11 +37,11 @@ Eigen::MatrixXd element_stress(const mesh::Mesh& mesh, int cell, const model::Ma
   return functions.stress(cell_coordinates(mesh, cell), elasticity(material), element);
 }
 
-Eigen::VectorXd displacements(std::span<const int> nodes, const Eigen::VectorXd& u) {
-  Eigen::VectorXd u_e(3 * nodes.size());
+Eigen::MatrixXd displacements(std::span<const int> nodes, const Eigen::MatrixXd& U) {
+  Eigen::MatrixXd U_e(3 * nodes.size(), U.cols());
   for (std::size_t a = 0; a < nodes.size(); ++a)
-    u_e.segment<3>(static_cast<Eigen::Index>(3 * a)) = u.segment<3>(3 * nodes[a]);
-  return u_e;
+    U_e.middleRows<3>(static_cast<Eigen::Index>(3 * a)) = U.middleRows<3>(3 * nodes[a]);
+  return U_e;
 }
 
 // Adds 6 rows S_a for the displacements of some nodes to the operator's rows 6 i ..
@@ -142,26 +142,31 @@ std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model:
   return average.region;
 }
 
-Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u) {
+Eigen::MatrixXd nodal_stresses(const StressedBody& body, const Eigen::MatrixXd& U) {
   const mesh::Mesh& mesh = body.mesh;
-  require(u.size() == 3 * mesh.n_nodes(), "displacement has ", u.size(), " entries, the mesh needs ",
+  require(U.rows() == 3 * mesh.n_nodes(), "displacement has ", U.rows(), " entries, the mesh needs ",
           3 * mesh.n_nodes());
   const Averaging average = find_averaging(mesh, body.regions);
-  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6, mesh.n_nodes());
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(mesh.n_nodes()), U.cols());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const model::Material& material = body.regions[average.region_of_cell[cell]].material;
-    const Eigen::VectorXd s =
-        element_stress(mesh, cell, material, body.element) * displacements(mesh.cells[cell], u);
     const auto nodes = mesh.cells[cell];
+    const Eigen::MatrixXd s = element_stress(mesh, cell, material, body.element) * displacements(nodes, U);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       if (average.counts(cell, nodes[a]))
-        sigma.col(nodes[a]) += s.segment<6>(static_cast<Eigen::Index>(6 * a)) / average.count[nodes[a]];
+        sigma.middleRows<6>(6 * nodes[a]) +=
+            s.middleRows<6>(static_cast<Eigen::Index>(6 * a)) / average.count[nodes[a]];
   }
   const SurfaceRecovery recover(body, average);
   for (int node = 0; node < mesh.n_nodes(); ++node)
     if (average.count[node] > 0)
-      if (const auto rows = recover(node)) sigma.col(node) = rows->S * displacements(rows->node, u);
+      if (const auto rows = recover(node))
+        sigma.middleRows<6>(6 * node) = rows->S * displacements(rows->node, U);
   return sigma;
+}
+
+Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u) {
+  return nodal_stresses(body, u).reshaped(6, body.mesh.n_nodes());
 }
 
 }  // namespace elastogear::fem

@@ -1,10 +1,9 @@
 #include "elastogear/recovery/field.h"
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
 #include <vector>
 
+#include "elastogear/base/error.h"
 #include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
@@ -13,119 +12,188 @@ namespace elastogear::recovery {
 
 namespace {
 
-// One body's modes and the stresses of its displacements.
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using States = std::vector<FieldState>;
+
+// One body's modes and the stresses of its displacements, a column for each of k states.
 struct Fields {
   const std::string& body_file;
   const io::BodySource& source;
   const FiniteElements& finite_elements;
 
-  Eigen::Matrix3Xd displacement(const Eigen::VectorXd& q, const Eigen::VectorXd& u_static) const {
-    Eigen::Matrix3Xd u = io::read_displacement_field(body_file, q);
-    if (u_static.size() > 0) u += u_static.reshaped(3, u.cols());
-    return u;
+  // Phi q and, where there is one, a static displacement. q, u_static: of a state.
+  template <class Coordinates, class Static>
+  MatrixXd displacements(const States& states, const Coordinates& q, const Static& u_static) const {
+    MatrixXd Q(q(states.front()).size(), std::ssize(states));
+    for (std::size_t i = 0; i < states.size(); ++i) Q.col(static_cast<Index>(i)) = q(states[i]);
+    MatrixXd U = io::read_displacement_fields(body_file, Q);
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (const VectorXd& u = u_static(states[i]); u.size() > 0) U.col(static_cast<Index>(i)) += u;
+    return U;
   }
-  Eigen::MatrixXd stress(const Eigen::Matrix3Xd& u) const {  // 6 x n_nodes
-    return finite_elements.nodal_stress(source, u.reshaped());
-  }
+  MatrixXd stresses(const MatrixXd& U) const { return finite_elements.nodal_stresses(source, U); }
 };
 
-// Takes the stress that viscoelastic regions have relaxed from that at their nodes. docs/theory, Eq.
+const VectorXd kNothing;
+
+const VectorXd& no_displacement(const FieldState&) { return kNothing; }
+
+// Takes the stresses that viscoelastic regions have relaxed from those at their nodes. docs/theory, Eq.
 // (4.10).
-void subtract_relaxed(const Fields& fields, const Eigen::MatrixXd& w, Eigen::MatrixXd& stress) {
-  if (w.cols() == 0) return;
+void subtract_relaxed(const Fields& fields, const States& states, MatrixXd& stress) {
+  if (states.front().w.cols() == 0) return;
   const std::vector<int> node_region = fields.finite_elements.node_regions(fields.source);
   const model::ElasticBody body = io::read_body(fields.body_file, io::BodyUse::motion);
   for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
     const model::RelaxingPart& part = body.relaxing[p];
-    const Eigen::MatrixXd of_part = stress_of_part(
-        fields.stress(fields.displacement(w.col(static_cast<Eigen::Index>(p)), {})).reshaped(), part.part);
+    const auto lost = [&](const FieldState& state) -> VectorXd { return state.w.col(static_cast<Index>(p)); };
+    const MatrixXd of_part =
+        stress_of_part(fields.stresses(fields.displacements(states, lost, no_displacement)), part.part);
     for (std::size_t node = 0; node < node_region.size(); ++node)
       if (const int r = node_region[node]; r >= 0 && fields.source.regions[r].cell_set == part.cell_set)
-        stress.col(static_cast<Eigen::Index>(node)) -=
-            of_part.col(0).segment<6>(static_cast<Eigen::Index>(6 * node));
+        stress.middleRows<6>(static_cast<Index>(6 * node)) -=
+            of_part.middleRows<6>(static_cast<Index>(6 * node));
   }
 }
 
-Eigen::VectorXd von_mises_at_nodes(const Eigen::MatrixXd& stress) {
-  return von_mises(Eigen::MatrixXd(stress.reshaped()));
+// n_nodes x k, Pa.
+MatrixXd estimated_errors(const Fields& fields, const States& states, const MatrixXd& found) {
+  const auto of_static = [](const FieldState& s) -> const VectorXd& { return s.reference->u_static; };
+  MatrixXd residual = fields.stresses(fields.displacements(
+      states, [](const FieldState& s) { return s.reference->q_d; }, of_static));
+  const MatrixXd whole = von_mises(residual);
+  residual -= fields.stresses(fields.displacements(
+      states, [](const FieldState& s) { return s.reference->q; }, no_displacement));
+  const MatrixXd of_residual = von_mises(residual);
+  residual = fields.stresses(fields.displacements(
+      states, [](const FieldState& s) { return s.reference->q_upper; }, no_displacement));
+  const MatrixXd upper = von_mises(residual);
+  MatrixXd error(found.rows(), found.cols());
+  for (Index i = 0; i < found.cols(); ++i)
+    error.col(i) = field_error({found.col(i), whole.col(i), of_residual.col(i), upper.col(i)},
+                               states[static_cast<std::size_t>(i)].reference->share);
+  return error;
 }
 
-Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& reference,
-                                const Eigen::VectorXd& found) {
-  const Eigen::MatrixXd whole = fields.stress(fields.displacement(reference.q_d, reference.u_static)),
-                        of_modes = fields.stress(fields.displacement(reference.q, {})),
-                        upper = fields.stress(fields.displacement(reference.q_upper, {}));
-  return field_error(
-      {found, von_mises_at_nodes(whole), von_mises_at_nodes(whole - of_modes), von_mises_at_nodes(upper)},
-      reference.share);
-}
+// What errors by the mesh take of the loaded nodes at k times.
+struct Loaded {
+  std::vector<int> node;   // mesh numbers
+  SurfacePatches patches;  // around each; of means none
+  MatrixXd difference;     // n_nodes x k, Pa, von Mises stress of Eq. (1.16a); 0 at other nodes
+};
 
-// The loaded nodes whose faces have a tangent plane, with the error of their means by displacements u.
-LoadedNodes loaded_nodes(const Fields& fields, const std::vector<int>& touched, const Eigen::Matrix3Xd& u,
-                         const Eigen::VectorXd& found) {
+Loaded find_loaded(const Fields& fields, const std::vector<int>& touched, const MatrixXd& U) {
   const bool averaged = fields.source.recovery.method == model::RecoveryMethod::average;
-  const std::vector<int>& all = averaged ? touched : fields.source.recovery.loaded;
-  const Eigen::VectorXd stress =
-      fields.finite_elements.difference_within_surface(fields.source, touched, all) * u.reshaped();
-  Eigen::VectorXd difference = Eigen::VectorXd::Zero(found.size());
-  difference(all) = von_mises(Eigen::MatrixXd(stress));
-  LoadedNodes loaded;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(loaded.node),
-               [&](int node) { return difference[node] > 0; });
-  loaded.within = difference(loaded.node);
-  if (averaged) return loaded;
-  SurfacePatches patches = fields.finite_elements.surface_patches(fields.source, loaded.node);
-  for (std::size_t i = 0; i < loaded.node.size(); ++i) {
-    std::vector<int>& patch = patches.node[i];
-    std::erase_if(patch, [&](int node) { return difference[node] == 0; });
-    loaded.within[static_cast<Eigen::Index>(i)] =
-        error_within_surface(difference(patch), found(patch), patches.order[i]);
-  }
+  Loaded loaded{averaged ? touched : fields.source.recovery.loaded, {}, {}};
+  const MatrixXd stress =
+      fields.finite_elements.difference_within_surface(fields.source, touched, loaded.node) * U;
+  loaded.difference = MatrixXd::Zero(fields.source.mesh.n_nodes(), U.cols());
+  loaded.difference(loaded.node, Eigen::all) = von_mises(stress);
+  if (!averaged) loaded.patches = fields.finite_elements.surface_patches(fields.source, loaded.node);
   return loaded;
 }
 
-// Eqs. (1.17) and (1.18a), of displacements u.
-Eigen::VectorXd estimated_mesh_error(const Fields& fields, const std::vector<int>& touched,
-                                     const Eigen::Matrix3Xd& u, const Eigen::VectorXd& found) {
-  const Eigen::VectorXd difference =
-      von_mises_at_nodes(fields.finite_elements.stress_difference(fields.source, touched, u.reshaped()));
-  SurfacePatches patches;
-  if (fields.source.recovery.method == model::RecoveryMethod::surface) {
-    std::vector<int> free;
-    for (int i = 0; i < difference.size(); ++i)
-      if (difference[i] > 0) free.push_back(i);
-    patches = fields.finite_elements.surface_patches(fields.source, free);
+// The loaded nodes whose faces have a tangent plane, with the error of their means at one time.
+LoadedNodes loaded_nodes(const Loaded& of, Index time, const VectorXd& found) {
+  const VectorXd difference = of.difference.col(time);
+  LoadedNodes loaded;
+  std::vector<double> within;
+  for (std::size_t i = 0; i < of.node.size(); ++i) {
+    const int node = of.node[i];
+    if (!(difference[node] > 0)) continue;
+    loaded.node.push_back(node);
+    within.push_back(difference[node]);
+    if (of.patches.node.empty()) continue;
+    std::vector<int> patch = of.patches.node[i];
+    std::erase_if(patch, [&](int other) { return difference[other] == 0; });
+    within.back() = error_within_surface(difference(patch), found(patch), of.patches.order[i]);
   }
-  return mesh_error_field(difference, found, std::move(patches), loaded_nodes(fields, touched, u, found));
+  loaded.within = VectorXd::Map(within.data(), std::ssize(within));
+  return loaded;
+}
+
+// The patches of the nodes that have a difference, of those of several times.
+SurfacePatches patches_of(const std::vector<int>& node, const SurfacePatches& all,
+                          const VectorXd& difference) {
+  SurfacePatches patches;
+  for (std::size_t i = 0; i < all.node.size(); ++i) {
+    if (!(difference[node[i]] > 0)) continue;
+    patches.node.push_back(all.node[i]);
+    patches.order.push_back(all.order[i]);
+  }
+  return patches;
+}
+
+// n_nodes x k, Pa: Eqs. (1.17) and (1.18a), of displacements U.
+MatrixXd estimated_mesh_errors(const Fields& fields, const std::vector<int>& touched, const MatrixXd& U,
+                               const MatrixXd& found) {
+  const MatrixXd difference = von_mises(fields.finite_elements.stress_difference(fields.source, touched, U));
+  std::vector<int> free;
+  SurfacePatches around;
+  if (fields.source.recovery.method == model::RecoveryMethod::surface) {
+    for (int i = 0; i < difference.rows(); ++i)
+      if (difference.row(i).maxCoeff() > 0) free.push_back(i);
+    around = fields.finite_elements.surface_patches(fields.source, free);
+  }
+  const Loaded loaded = find_loaded(fields, touched, U);
+  MatrixXd error(found.rows(), found.cols());
+  for (Index i = 0; i < found.cols(); ++i)
+    error.col(i) =
+        mesh_error_field(difference.col(i), found.col(i), patches_of(free, around, difference.col(i)),
+                         loaded_nodes(loaded, i, found.col(i)));
+  return error;
+}
+
+// Fields of one number a node, n_nodes x k.
+struct Scalar {
+  const char* name;
+  MatrixXd value;
+};
+
+std::vector<Scalar> scalars(const Fields& body, const States& states, const MatrixXd& U,
+                            const MatrixXd& stress) {
+  std::vector<Scalar> all = {{"von_mises [Pa]", von_mises(stress)}, {"rankine [Pa]", rankine(stress)}};
+  const MatrixXd found = all[0].value;
+  if (states.front().reference)
+    all.push_back({"error_of_von_mises [Pa]", estimated_errors(body, states, found)});
+  if (const auto& touched = states.front().touched)
+    all.push_back({"error_of_von_mises_by_mesh [Pa]", estimated_mesh_errors(body, *touched, U, found)});
+  if (states.front().q_error.size() > 0)
+    all.push_back({"error_of_von_mises_by_steps [Pa]",
+                   von_mises(body.stresses(body.displacements(
+                       states, [](const FieldState& s) { return s.q_error; }, no_displacement)))});
+  return all;
 }
 
 }  // namespace
 
-void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
-                 const FieldState& state, const FiniteElements& finite_elements) {
+int fields_together(int n_nodes) {
+  constexpr int kMost = 16, kNodes = 1'000'000;  // 6 stresses of 8 bytes and their like at each node
+  return std::clamp(kNodes / std::max(1, n_nodes), 1, kMost);
+}
+
+void write_fields(const std::vector<std::string>& paths, const std::string& body_file,
+                  const io::BodySource& source, const States& states, const FiniteElements& finite_elements) {
+  require(paths.size() == states.size() && !states.empty(), "fields need a path for each state");
   const Fields body{body_file, source, finite_elements};
-  const Eigen::Matrix3Xd u_B = body.displacement(state.q, state.u_static);
-  Eigen::MatrixXd stress = body.stress(u_B);
-  subtract_relaxed(body, state.w, stress);
-  const Eigen::MatrixXd tensors = stress.reshaped();
-  const Eigen::VectorXd equivalent = von_mises_at_nodes(stress);
-  auto placed = source.mesh;
-  placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;
-  std::vector<io::NodeField> fields = {{"displacement [m]", state.R_WB * u_B},
-                                       {"stress [Pa]", stress},
-                                       {"von_mises [Pa]", equivalent.transpose()},
-                                       {"rankine [Pa]", rankine(tensors).transpose()}};
-  if (state.reference)
-    fields.push_back(
-        {"error_of_von_mises [Pa]", estimated_error(body, *state.reference, equivalent).transpose()});
-  if (state.touched)
-    fields.push_back({"error_of_von_mises_by_mesh [Pa]",
-                      estimated_mesh_error(body, *state.touched, u_B, equivalent).transpose()});
-  if (state.q_error.size() > 0)
-    fields.push_back({"error_of_von_mises_by_steps [Pa]",
-                      von_mises_at_nodes(body.stress(body.displacement(state.q_error, {}))).transpose()});
-  fields.insert(fields.end(), state.more.begin(), state.more.end());
-  io::write_vtu(path, placed, fields);
+  const MatrixXd U = body.displacements(
+      states, [](const FieldState& s) { return s.q; },
+      [](const FieldState& s) -> const VectorXd& { return s.u_static; });
+  MatrixXd stress = body.stresses(U);
+  subtract_relaxed(body, states, stress);
+  const std::vector<Scalar> all = scalars(body, states, U, stress);
+  mesh::Mesh placed = source.mesh;
+  const int n = source.mesh.n_nodes();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const FieldState& state = states[i];
+    const auto column = static_cast<Index>(i);
+    placed.X = (state.R_WB * source.mesh.X).colwise() + state.r_WB;
+    std::vector<io::NodeField> fields = {{"displacement [m]", state.R_WB * U.col(column).reshaped(3, n)},
+                                         {"stress [Pa]", stress.col(column).reshaped(6, n)}};
+    for (const Scalar& of : all) fields.push_back({of.name, of.value.col(column).transpose()});
+    fields.insert(fields.end(), state.more.begin(), state.more.end());
+    io::write_vtu(paths[i], placed, fields);
+  }
 }
 
 }  // namespace elastogear::recovery

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "elastogear/base/error.h"
 #include "elastogear/fem/material.h"
 #include "elastogear/fem/stress.h"
 #include "other_cells.h"
@@ -108,6 +109,19 @@ TEST(SurfaceStress, of_an_orthotropic_bar_under_tension_is_force_over_area) {
     for (int i = 0; i < mesh.n_nodes(); ++i)
       EXPECT_LT((sigma.col(i) - Eigen::VectorXd::Unit(6, 0) * stress).norm(), kRoundoff * stress);
   }
+}
+
+TEST(SurfaceStress, several_displacements_have_the_stresses_of_each) {
+  const auto mesh = test::brick({3, 3, 2}, {1, 0.4, 0.3});
+  const Eigen::MatrixXd U = Eigen::MatrixXd::Random(3 * mesh.n_nodes(), 3);
+  for (RecoveryMethod method : {RecoveryMethod::average, RecoveryMethod::surface}) {
+    const fem::StressedBody body{mesh, test::kSteelBody, Element::incompatible, {method, {}}};
+    const Eigen::MatrixXd all = fem::nodal_stresses(body, U);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LT((all.col(i) - fem::nodal_stress(body, U.col(i)).reshaped()).norm(),
+                kRoundoff * all.col(i).norm());
+  }
+  EXPECT_THROW(fem::nodal_stresses({mesh, test::kSteelBody, Element::incompatible}, U.topRows(3)), Error);
 }
 
 TEST(SurfaceStress, has_no_traction_and_none_at_all_at_corners) {

@@ -40,8 +40,8 @@ FiniteElements finite_elements() {
                 [factor](const auto& loaded, const auto& f) { return factor->displacement(loaded, f); },
                 [factor](const auto& loaded, const auto& nodes) { return factor->stress(loaded, nodes); }};
           },
-          [](const io::BodySource& source, const Eigen::VectorXd& u) {
-            return fem::nodal_stress(reduction::stressed_body(source), u);
+          [](const io::BodySource& source, const Eigen::MatrixXd& U) {
+            return fem::nodal_stresses(reduction::stressed_body(source), U);
           },
           {},
           [](const io::BodySource& source, const auto& loaded, const auto& nodes) {

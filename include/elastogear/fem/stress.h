@@ -32,8 +32,10 @@ model::SparseRows difference_within_surface(StressedBody body, const std::vector
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 
-/// Stress at all nodes for one displacement u (3 n_nodes, m, node-major): 6 x n_nodes, Pa, without forming S.
-/// Nodes outside all cells get 0.
+/// Stress at all nodes for k displacements U (3 n_nodes x k, m, node-major): 6 n_nodes x k, Pa, without
+/// forming S. Nodes outside all cells get 0. What the mesh costs is paid once for all k.
+Eigen::MatrixXd nodal_stresses(const StressedBody& body, const Eigen::MatrixXd& U);
+/// The same for one displacement u (3 n_nodes): 6 x n_nodes, Pa.
 Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u);
 
 }  // namespace elastogear::fem

@@ -70,8 +70,10 @@ BodySource read_body_source(const std::string& path);
 ModeChecks read_mode_checks(const std::string& path);
 /// Returns whether the file holds the modes at all nodes.
 bool has_full_modes(const std::string& path);
-/// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full). Error
-/// with the remedy when the modes are not stored in full.
+/// Whole-body displacements Phi Q of k states Q (n_q x k): 3 n_nodes x k, m, node-major, BRF. Streams
+/// /modes/Phi (modal) or scatters Q (full). Error with the remedy when the modes are not stored in full.
+Eigen::MatrixXd read_displacement_fields(const std::string& path, const Eigen::MatrixXd& Q);
+/// The same of one state: 3 x n_nodes.
 Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q);
 /// Calls visit(k, phi) for each of the n_q modes of a modal basis, phi: 3 n_nodes, node-major; one mode is in
 /// memory at a time. Error with the remedy when the modes are not stored in full.

@@ -1,5 +1,5 @@
 #pragma once
-// Whole-body fields at one time, for ParaView: what recovery gives, on the mesh the body file keeps.
+// Whole-body fields over time, for ParaView: what recovery gives, on the mesh the body file keeps.
 
 #include <Eigen/Core>
 #include <optional>
@@ -34,10 +34,15 @@ struct FieldState {
   Eigen::VectorXd q_error = {};  ///< of q by the steps in time; empty: no error in time is estimated
 };
 
-/// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
-/// von_mises, its estimated errors, rankine and the fields in `more`. `body_file` gives Phi, and `source` is
-/// read from it.
-void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
-                 const FieldState& state, const FiniteElements& finite_elements);
+/// Fields that are found together: what a mesh costs is paid once for all of them, 200 MB of them are in
+/// memory.
+int fields_together(int n_nodes);
+
+/// Writes a body at several times, one file each: undeformed in its placement (world frame) with displacement
+/// (world frame), stress (body frame), von_mises, its estimated errors, rankine and the fields in `more`.
+/// `body_file` gives Phi, and `source` is read from it. States have the same estimates.
+void write_fields(const std::vector<std::string>& paths, const std::string& body_file,
+                  const io::BodySource& source, const std::vector<FieldState>& states,
+                  const FiniteElements& finite_elements);
 
 }  // namespace elastogear::recovery

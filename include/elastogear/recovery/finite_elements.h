@@ -28,8 +28,8 @@ struct FiniteElements {
   /// Factorises K of a body. The source outlives the response. floating: nothing holds the body, whose loads
   /// are balanced by its inertia.
   std::function<UnreducedResponse(const io::BodySource& source, bool floating)> unreduced_response;
-  /// Stress at all nodes, 6 x n_nodes, Pa, of displacements u (3 n_nodes, m, node-major).
-  std::function<Eigen::MatrixXd(const io::BodySource& source, const Eigen::VectorXd& u)> nodal_stress;
+  /// Stress at all nodes, 6 n_nodes x k, Pa, of k displacements U (3 n_nodes x k, m, node-major).
+  std::function<Eigen::MatrixXd(const io::BodySource& source, const Eigen::MatrixXd& U)> nodal_stresses;
   /// Index into the source's regions of the region whose stress each node has; -1: none. Asked of
   /// viscoelastic bodies.
   std::function<std::vector<int>(const io::BodySource& source)> node_regions = {};
@@ -45,10 +45,10 @@ struct FiniteElements {
   /// Rows of the stress operator at nodes, as the body takes its stresses: 6 n x 3 n_nodes, Pa/m.
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& nodes)>
       stress_operator = {};
-  /// The difference of both recoveries at all nodes for displacements u: 6 x n_nodes, Pa; zero at `loaded`
-  /// nodes and where no free surface is.
+  /// The difference of both recoveries at all nodes for k displacements U: 6 n_nodes x k, Pa; zero at
+  /// `loaded` nodes and where no free surface is.
   std::function<Eigen::MatrixXd(const io::BodySource& source, const std::vector<int>& loaded,
-                                const Eigen::VectorXd& u)>
+                                const Eigen::MatrixXd& U)>
       stress_difference = {};
   std::function<SurfacePatches(const io::BodySource& source, const std::vector<int>& nodes)> surface_patches =
       {};

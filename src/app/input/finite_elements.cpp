@@ -21,8 +21,8 @@ recovery::UnreducedResponse unreduced_response(const io::BodySource& source, boo
           }};
 }
 
-Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd& u) {
-  return fem::nodal_stress(reduction::stressed_body(source), u);
+Eigen::MatrixXd nodal_stresses(const io::BodySource& source, const Eigen::MatrixXd& U) {
+  return fem::nodal_stresses(reduction::stressed_body(source), U);
 }
 
 std::vector<int> node_regions(const io::BodySource& source) {
@@ -49,13 +49,13 @@ model::SparseRows stress_operator(const io::BodySource& source, const std::vecto
 }
 
 Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vector<int>& loaded,
-                                  const Eigen::VectorXd& u) {
+                                  const Eigen::MatrixXd& U) {
   fem::StressedBody body = reduction::stressed_body(source);
   if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
   body.recovery.method = model::RecoveryMethod::surface;
-  const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
+  const Eigen::MatrixXd recovered = fem::nodal_stresses(body, U);
   body.recovery.method = model::RecoveryMethod::average;
-  return recovered - fem::nodal_stress(body, u);
+  return recovered - fem::nodal_stresses(body, U);
 }
 
 recovery::SurfacePatches surface_patches(const io::BodySource& source, const std::vector<int>& nodes) {
@@ -65,7 +65,7 @@ recovery::SurfacePatches surface_patches(const io::BodySource& source, const std
 }  // namespace
 
 recovery::FiniteElements finite_elements() {
-  return {unreduced_response,        nodal_stress,    node_regions,      recovery_difference,
+  return {unreduced_response,        nodal_stresses,  node_regions,      recovery_difference,
           difference_within_surface, stress_operator, stress_difference, surface_patches};
 }
 

@@ -164,13 +164,6 @@ std::string field_path(const std::string& base, std::size_t i, std::size_t n) {
   return n == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
 }
 
-constexpr std::size_t kFieldsTogether = 16;  // output times whose static responses are found together
-
-std::vector<int> found_together(const std::vector<int>& steps, std::size_t first) {
-  const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(std::min(kFieldsTogether, steps.size() - first))};
-}
-
 void write_fields(const RecoverSettings& settings, const Run& run, const std::vector<int>& steps,
                   const Progress& progress) {
   const LogStage stage("fields");
@@ -186,21 +179,25 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
     const bool tells_mesh = settings.error_estimate && tells_mesh_error(recovered, elastic);
     const recovery::BodyContact contact = recovery::read_body_contact(run.result, body.name, surface);
     const std::string base = settings.fields + "_" + body.name;
-    std::vector<recovery::FieldState> states;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      report(progress, "fields", before + each * share(steps, steps[i]));
-      const std::string path = field_path(base, i, steps.size());
-      if (i % kFieldsTogether == 0)
-        states = recovered_states(recovered, found_together(steps, i), settings.error_estimate);
-      recovery::FieldState state = std::move(states[i % kFieldsTogether]);
-      state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
-      if (tells_mesh) state.touched = surface.node;
-      if (settings.error_estimate && body.history.q_error.size() > 0)
-        state.q_error = body.history.q_error.col(steps[i]);
-      write_field(path, body.file, source, state, finite_elements());
-      series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string(),
-                        static_cast<int>(&recovered - run.bodies.data()), body.name});
-      print_item("written", path);
+    const int n_nodes = source.mesh.n_nodes(), together = recovery::fields_together(n_nodes);
+    for (int first = 0; first < std::ssize(steps); first += together) {
+      report(progress, "fields", before + each * first / static_cast<double>(steps.size()));
+      const auto begin = steps.begin() + first;
+      const std::vector<int> now(begin, begin + std::min<std::ptrdiff_t>(together, steps.end() - begin));
+      std::vector<recovery::FieldState> states = recovered_states(recovered, now, settings.error_estimate);
+      std::vector<std::string> paths;
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        recovery::FieldState& state = states[i];
+        state.more = contact_fields(contact, now[i], state.R_WB, surface, n_nodes);
+        if (tells_mesh) state.touched = surface.node;
+        if (settings.error_estimate && body.history.q_error.size() > 0)
+          state.q_error = body.history.q_error.col(now[i]);
+        paths.push_back(field_path(base, static_cast<std::size_t>(first) + i, steps.size()));
+        series.push_back({run.time[now[i]], std::filesystem::path(paths.back()).filename().string(),
+                          static_cast<int>(&recovered - run.bodies.data()), body.name});
+      }
+      recovery::write_fields(paths, body.file, source, states, finite_elements());
+      for (const std::string& path : paths) print_item("written", path);
     }
   }
   const std::string path = settings.fields + ".pvd";

@@ -228,24 +228,29 @@ bool has_full_modes(const std::string& path) {
   return h5::exists(open_format(path, kBodyFormat), "/modes/Phi");
 }
 
-Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q) {
+Eigen::MatrixXd read_displacement_fields(const std::string& path, const Eigen::MatrixXd& Q) {
   const h5::File file = open_format(path, kBodyFormat);
-  require(q.allFinite(), path, ": elastic coordinates are not finite");
+  require(Q.allFinite(), path, ": elastic coordinates are not finite");
+  Eigen::MatrixXd U;
   if (read_basis(file) == Basis::modal) {
-    Eigen::Matrix3Xd u;
-    visit_all_modes(file, q.size(), [&](Eigen::Index k, const Eigen::VectorXd& phi) {
-      if (k == 0) u.setZero(3, phi.size() / 3);
-      u.reshaped() += q[k] * phi;
+    visit_all_modes(file, Q.rows(), [&](Eigen::Index k, const Eigen::VectorXd& phi) {
+      if (k == 0) U.setZero(phi.size(), Q.cols());
+      U += phi * Q.row(k);
     });
-    return u;
+    return U;
   }
   const auto n_nodes = static_cast<Eigen::Index>(h5::shape(file, "/mesh/X").at(0));
   const std::vector<int> dof = read_free_dof(file, 3 * n_nodes);
-  require(static_cast<Eigen::Index>(dof.size()) == q.size(), path, ": has ", dof.size(), " coordinates, not ",
-          q.size());
-  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, n_nodes);
-  for (std::size_t i = 0; i < dof.size(); ++i) u.data()[dof[i]] = q[static_cast<Eigen::Index>(i)];
-  return u;
+  require(static_cast<Eigen::Index>(dof.size()) == Q.rows(), path, ": has ", dof.size(), " coordinates, not ",
+          Q.rows());
+  U.setZero(3 * n_nodes, Q.cols());
+  U(dof, Eigen::all) = Q;
+  return U;
+}
+
+Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q) {
+  const Eigen::MatrixXd u = read_displacement_fields(path, q);
+  return u.reshaped(3, u.rows() / 3);
 }
 
 void visit_modes(const std::string& path, Eigen::Index n_q, const VisitMode& visit) {
