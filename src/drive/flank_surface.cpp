@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "elastogear/base/error.h"
 #include "elastogear/contact/topology.h"
 #include "elastogear/gear/flank.h"
 
@@ -116,6 +117,22 @@ FlankHeights flank_heights(const Teeth& teeth, const model::Surface& surface, bo
       heights.error = std::max(heights.error, contact::height_error(surface, f, heights.height[f], distance));
   }
   return heights;
+}
+
+FlankSurface flank_surface(const Teeth& teeth, const model::Surface& surface, bool with_error) {
+  FlankSurface found;
+  found.farthest = farthest_node(teeth, surface);
+  require(found.farthest.node >= 0,
+          "no faces of sets tooth_<ii>_left, ..._right or thread_<i>_left, ..._right are on its surface");
+  require(found.farthest.distance <= kOnFlank, "node ", found.farthest.node, ", in ", found.farthest.group,
+          ", is ", found.farthest.distance, " m off the flank of this gear data, allowed is ", kOnFlank,
+          " m");
+  FlankHeights heights = flank_heights(teeth, surface, with_error);
+  found.surface.height = std::move(heights.height);
+  found.surface.flanks = exact_flanks(teeth.toothing, teeth.deviations, teeth.layers);
+  found.n_faces = heights.n_faces;
+  found.error = heights.error;
+  return found;
 }
 
 }  // namespace elastogear::drive

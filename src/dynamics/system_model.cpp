@@ -10,6 +10,7 @@
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
 #include "elastogear/dynamics/station_choice.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -280,11 +281,17 @@ std::vector<MovingBody> moving_bodies(const SystemModel& model, const State& x) 
   return bodies;
 }
 
+bool is_rigid(const SystemModel::Body& body) {
+  return body.eq.n_q() == 0 && body.eq.body->flexibility.empty();
+}
+
 model::ResultHeader result_header(const SystemModel& model) {
   model::ResultHeader header;
-  for (const SystemModel::Body& body : model.bodies)
+  for (const SystemModel::Body& body : model.bodies) {
     header.bodies.push_back({body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)],
                              !body.eq.body->relaxing.empty()});
+    header.provenance[model::rigid_key(body.name)] = is_rigid(body) ? "true" : "false";
+  }
   for (const PairSetup& pair : model.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     model::ResultHeader::Pair entry{pair.name,

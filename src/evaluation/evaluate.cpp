@@ -171,4 +171,10 @@ std::vector<io::EvaluationItem> tangent_stiffness(const PairEvaluation& pair, co
   return items.take();
 }
 
+const std::vector<double>& PairEvaluation::values(const std::string& path) const {
+  for (const io::EvaluationItem& item : items)
+    if (item.path == path) return item.value;
+  fail("the evaluation of a pair has no '", path, "'");
+}
+
 }  // namespace elastogear::evaluation

@@ -81,8 +81,8 @@ sed 's/^part: worm/&\nbacklash: 0.05e-3/' worm.yaml >slack.yaml
 printf 'z1: 2\n' >no_part.yaml
 printf 'part: worm\nz1: two\n' >word.yaml
 printf 'part: worm\ncentre_distance: 0.02\n' >small.yaml
-refused "slack.yaml: node .* of body 'worm', in thread_1_.*, is 2.5e-06 m off .* name the files" -worm_flanks slack.yaml
-refused "worm.yaml: node .* of body 'wheel', in tooth_.*, is .* m off" -wheel_flanks worm.yaml
+refused "slack.yaml: body 'worm': node .*, in thread_1_.*, is 2.5e-06 m off .* name the files" -worm_flanks slack.yaml
+refused "worm.yaml: body 'wheel': node .*, in tooth_.*, is .* m off" -wheel_flanks worm.yaml
 refused "no_part.yaml: names no part" -worm_flanks no_part.yaml
 refused "z1 \(word.yaml, line 2\) = 'two'" -worm_flanks word.yaml
 refused "small.yaml: there is no lead angle" -worm_flanks small.yaml

@@ -119,6 +119,18 @@ TEST(Drive, a_worm_lies_across_its_wheel) {
   }
 }
 
+TEST(Drive, designs_compare_by_all_their_numbers) {
+  const gear::CylindricalDrive design = pair_of(0.3, false);
+  gear::CylindricalDrive other = design;
+  EXPECT_EQ(other, design);
+  other.gears[1].blank.bore = 1e-3;
+  EXPECT_NE(other, design);
+  gear::Design worm = gear::proportioned(2e-3, 0.35, 2, 41, 50e-3);
+  EXPECT_EQ(worm, gear::proportioned(2e-3, 0.35, 2, 41, 50e-3));
+  worm.hand = gear::Hand::left;
+  EXPECT_NE(worm, gear::proportioned(2e-3, 0.35, 2, 41, 50e-3));
+}
+
 TEST(Drive, meshes_are_as_fine_as_asked) {
   const Drive drive = start(pair_of(0, false), {});
   mesh::ReadReport report;

@@ -22,7 +22,7 @@ namespace elastogear::drive {
 struct MeshDensity {
   gear::Size size = gear::Size::tiny;
   int order = 2;          ///< of the hexahedra, 1 or 2
-  double refinement = 1;  ///< of all counts of the size
+  double refinement = 1;  ///< of the counts of the size, see gear::refined
 };
 
 /// One gear.

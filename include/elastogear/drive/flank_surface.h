@@ -44,4 +44,15 @@ struct FlankHeights {
 /// Heights of all flanks (docs/theory, section 6.8). with_error: `error` is found, too.
 FlankHeights flank_heights(const Teeth& teeth, const model::Surface& surface, bool with_error);
 
+/// The exact flanks behind a surface.
+struct FlankSurface {
+  contact::TrueSurface surface;  ///< without deviations of nodes
+  OffNode farthest;
+  int n_faces = 0;   ///< that belong to flanks
+  double error = 0;  ///< m, see FlankHeights
+};
+
+/// Throws Error where no face belongs to a flank, or a node is farther than kOnFlank from its own one.
+FlankSurface flank_surface(const Teeth& teeth, const model::Surface& surface, bool with_error);
+
 }  // namespace elastogear::drive

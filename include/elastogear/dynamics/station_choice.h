@@ -7,9 +7,6 @@
 
 namespace elastogear::dynamics {
 
-/// Without elastic coordinates and static responses in this run.
-bool is_rigid(const SystemModel::Body& body);
-
 /// What a pair lacks for contact at stations: charts of exact flanks, static responses and one elastic
 /// material at the surface of one body at least, the other one being rigid or the same, no penalty and no
 /// friction that sticks. Empty: nothing.

@@ -79,6 +79,9 @@ struct SystemModel {
 SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
                               const Environment& environment = {}, const MarkerSetups& markers = {});
 
+/// Has a body neither elastic coordinates nor static responses in this run?
+bool is_rigid(const SystemModel::Body& body);
+
 /// Lets the motion begin with joint coordinates and deformations of these states, one for each body. Joint
 /// coordinates stay where the state has others, as that of a body that was held. Bushings are unloaded where
 /// they were before.
@@ -95,7 +98,8 @@ struct State {
 /// Motion of a body, prescribed coordinates included.
 body::Motion motion(const SystemModel& model, std::size_t b, const State& x);
 std::vector<MovingBody> moving_bodies(const SystemModel& model, const State& x);
-/// Names of bodies, joints, pairs and face groups for the result file; the bodies' files stay empty.
+/// Names of bodies, joints, pairs and face groups for the result file, and which bodies are rigid; the
+/// bodies' files stay empty.
 model::ResultHeader result_header(const SystemModel& model);
 
 }  // namespace elastogear::dynamics

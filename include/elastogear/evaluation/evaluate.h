@@ -37,6 +37,9 @@ struct PairEvaluation {
   std::vector<io::EvaluationItem> items;  ///< paths below the pair: "transmission_error/mean"
   Eigen::VectorXd error;                  ///< n_t, m, transmission error
   Eigen::VectorXd force;                  ///< n_t, N, moment on the second gear over the radius of the errors
+
+  /// Those of the item at this path. Throws Error where there is none.
+  const std::vector<double>& values(const std::string& path) const;
 };
 
 /// Where the elasticity behind the flanks is known each contact takes the half width of its patch by H.

@@ -21,6 +21,7 @@ struct Blank {
   /// m, diameter of the face away from the teeth.
   double end_diameter() const { return outer_diameter > 0 ? outer_diameter : bore; }
   bool has_web() const { return hub_diameter > 0; }
+  bool operator==(const Blank&) const = default;
 };
 
 }  // namespace elastogear::gear

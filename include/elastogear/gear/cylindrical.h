@@ -24,6 +24,8 @@ struct BasicRack {
   double pr =
       0;  ///< protuberance: by which that tip stands out beyond the finished flanks, along their normal
   double alpha_pr = -1;  ///< rad, pressure angle of the tool there; < 0: half of alpha_n
+
+  bool operator==(const BasicRack&) const = default;
 };
 
 /// Profiles A, B, C and D of ISO 53:1998; throws Error listing them for any other name.
@@ -34,6 +36,8 @@ BasicRack basic_rack(const std::string& name);
 struct PinionCutter {
   int z_0 = 0;         ///< -, teeth; 0: near 25, where it spares the flanks
   double rho_a0 = -1;  ///< modules, tip radius; < 0: the rack's fillet radius, or less where it does not fit
+
+  bool operator==(const PinionCutter&) const = default;
 };
 
 /// What is chosen for one gear.
@@ -47,6 +51,8 @@ struct CylindricalGear {
                    ///< and, of internal pairs, spares the mates' fillets and tips
   Blank blank;     ///< lengths of 0: a bore of 0.4 root diameters, a body of an internal gear of 3 modules
                    ///< around its root, and a rim of 2.5 modules where there is room
+
+  bool operator==(const CylindricalGear&) const = default;
 };
 
 /// Two gears in mesh, of which one may be internal. One whose second gear has a place already closes a loop,
@@ -56,6 +62,8 @@ struct GearPair {
   double a = 0;          ///< m, centre distance; 0: teeth without thinning would run without backlash
   double direction = 0;  ///< rad, from +X to the line from the first axis to the second
   int coaxial = -1;      ///< gear on whose axis the second one stands; -1: a and direction place it
+
+  bool operator==(const GearPair&) const = default;
 };
 
 /// A train of gears with fixed axes.
@@ -68,6 +76,8 @@ struct CylindricalDrive {
                     ///< centre distance leaves
   std::vector<CylindricalGear> gears;
   std::vector<GearPair> pairs;  ///< each adds its second gear to the gears before it, or closes a loop
+
+  bool operator==(const CylindricalDrive&) const = default;
 };
 
 constexpr double kLeastClearance = 0.2;  ///< modules, between tip and mate's root

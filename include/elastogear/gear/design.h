@@ -72,6 +72,8 @@ struct Design {
   double web_diameter = 61.0e-3;  ///< m, outer diameter of the web, inner of the ring
   double web_width = 8.0e-3;      ///< m
   double rim_diameter = 70.0e-3;  ///< m, inner diameter of the rim
+
+  bool operator==(const Design&) const = default;
 };
 
 /// Radii, angles and lengths that follow from a Design.

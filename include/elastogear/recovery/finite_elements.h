@@ -1,6 +1,6 @@
 #pragma once
 // Recovery needs two answers of a whole body's finite elements, which belong to the modules that make bodies
-// and which it does not include: the caller hands them in, as src/app/input/finite_elements.cpp does.
+// and which it does not include: the caller hands them in, as src/drive/finite_elements.cpp does.
 
 #include <Eigen/Core>
 #include <functional>

@@ -6,15 +6,17 @@
 #include <numbers>
 
 #include "app/console/plausibility.h"
+#include "app/gear/bearing_options.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
-#include "app/input/finite_elements.h"
 #include "app/options/rows.h"
 #include "app/setup/drive_input.h"
-#include "app/surface/flank_material.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/drive/finite_elements.h"
+#include "elastogear/drive/pair_of_run.h"
+#include "elastogear/drive/surface_compliance.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/model/fingerprint.h"
 #include "elastogear/recovery/recover.h"
@@ -85,20 +87,16 @@ const DriveMember& member_of(const Drive& drive, const std::string& name, const 
   fail(path, ": body '", name, "' is no gear of the drive file: name the result of this drive by -result");
 }
 
+Eigen::Matrix3d rotation_at(const io::BodyHistory& history, int step) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(history.R_WB.col(step).data());
+}
+
 Gear gear_of(const DriveOfRun& of, const Source& source, const std::string& name) {
-  const DriveMember& member = member_of(of.drive, name, source.path);
-  Gear gear;
-  gear.name = name;
-  gear.toothing = member.toothing;
-  gear.width = member.width;
-  gear.ratio = member.ratio;
-  gear.angle = member.angle;
-  gear.R = rotation_matrix(member.rotation);
+  Gear gear = drive::gear_of(member_of(of.drive, name, source.path));
   const io::BodyHistory history = io::read_joint_history(source.path, name);
   for (int step : source.steps) {
     gear.position.push_back(history.r_WB.col(step));
-    gear.rotation.push_back(
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(history.R_WB.col(step).data()));
+    gear.rotation.push_back(rotation_at(history, step));
   }
   return gear;
 }
@@ -151,40 +149,44 @@ void require_roll_angles(const PairOfRun& pair, const std::string& path) {
   }
 }
 
+void read_times(const Source& source, const model::ResultHeader::Pair& of_pair,
+                const std::array<evaluation::Flanks, 2>& flanks, PairOfRun& pair) {
+  const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
+  const auto contacts = io::read_contacts(source.path, of_pair.name);
+  std::array<io::BodyHistory, 2> body;
+  for (std::size_t g : {0, 1}) body[g] = io::read_joint_history(source.path, pair.gear[g].name);
+  for (int step : source.steps)
+    drive::add_time({{body[0].r_WB.col(step), body[1].r_WB.col(step)},
+                     {rotation_at(body[0], step), rotation_at(body[1], step)},
+                     history.force.col(step),
+                     history.torque.col(step),
+                     contacts[static_cast<std::size_t>(step)]},
+                    flanks, pair);
+  pair.slave_side = evaluation::slave_side(contacts);
+}
+
 PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
                     const model::ResultHeader::Pair& of_pair) {
   PairOfRun pair;
   std::array<evaluation::Flanks, 2> flanks;
   for (std::size_t g : {0, 1}) {
     const std::string& name = source.header.bodies[of_pair.body[g]].name;
-    pair.gear[g] = gear_of(of, source, name);
+    pair.gear[g] = drive::gear_of(member_of(of.drive, name, source.path));
     flanks[g] = evaluation::flanks(pair.gear[g].toothing, elastic_body(of, bodies, source, name).surface);
     require_teeth(flanks[g], pair.gear[g], file_of_body(of, source, name));
     pair.gear[g].layers = evaluation::node_layers(flanks[g]);
     pair.compliance[g] = bodies.compliance(file_of_body(of, source, name));
   }
+  drive::make_room(source.steps.size(), pair);
   pair.roll = rolls(of, source);
+  if (source.kind == Kind::in_time) pair.time = source.time(source.steps);
   pair.first_teeth = of.drive.members.front().toothing.z;
   pair.sense = of.options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
   pair.turning = source.kind == Kind::positions ? 1 : pair.sense;
   pair.speed = std::abs(number_of(source.header, "speed"));
-  const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
-  const auto contacts = io::read_contacts(source.path, of_pair.name);
-  pair.slave_side = evaluation::slave_side(contacts);
   pair.strips = of_pair.strips;
   pair.friction = number_of(source.header, "contact_friction");
-  const auto n = static_cast<Eigen::Index>(source.steps.size());
-  pair.force.resize(3, n), pair.torque.resize(3, n);
-  if (source.kind == Kind::in_time) pair.time.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const int step = source.steps[static_cast<std::size_t>(i)];
-    pair.force.col(i) = history.force.col(step);
-    pair.torque.col(i) = history.torque.col(step);
-    if (source.kind == Kind::in_time) pair.time[i] = source.time[step];
-    pair.contacts.push_back(evaluation::flank_contacts(contacts[static_cast<std::size_t>(step)],
-                                                       {&pair.gear[0], &pair.gear[1]}, flanks,
-                                                       static_cast<std::size_t>(i)));
-  }
+  read_times(source, of_pair, flanks, pair);
   if (source.kind != Kind::in_time) require_roll_angles(pair, source.path);
   evaluation::take_hertz(pair);
   return pair;
@@ -256,7 +258,7 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
       continue;
     }
     recovery::RecoveredBody recovered = recovery::prepare_recovery(
-        std::move(body), of.settings.mode_acceleration, of.settings.error_estimate, finite_elements());
+        std::move(body), of.settings.mode_acceleration, of.settings.error_estimate, drive::finite_elements());
     roots[name] = some_times(recovery::recover_stress(recovered, elastic, "root", of.settings.error_estimate),
                              source.steps);
     warn_of_strain(roots[name], recovered.run.file);
@@ -266,9 +268,10 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
 
 // A gear's bearings stand in its file's order; their forces act on the gear, in the world.
 std::vector<BearingOfRun> read_bearings(const DriveOfRun& of, const Source& source) {
-  std::vector<BearingOfRun> bearings;
+  std::vector<BearingOfRun> all;
   for (const DriveMember& member : of.drive.members)
-    for (const std::string& name : bearing_names(of.options, member)) {
+    for (const drive::Bearing& bearing : bearings(of.options, member)) {
+      const std::string& name = bearing.name;
       const auto& known = source.header.bushings;
       if (std::find(known.begin(), known.end(), name) == known.end()) continue;
       const io::BushingHistory history = io::read_bushing_history(source.path, name);
@@ -279,12 +282,12 @@ std::vector<BearingOfRun> read_bearings(const DriveOfRun& of, const Source& sour
       };
       const Eigen::MatrixXd u = history.displacement(Eigen::all, source.steps),
                             angle = history.angle(Eigen::all, source.steps);
-      bearings.push_back({name, member.name, across(history.force),
-                          -(axis.transpose() * history.force(Eigen::all, source.steps)).transpose(),
-                          across(history.torque), u.topRows<2>().colwise().norm().transpose(),
-                          u.row(2).transpose(), angle.topRows<2>().colwise().norm().transpose()});
+      all.push_back({name, member.name, across(history.force),
+                     -(axis.transpose() * history.force(Eigen::all, source.steps)).transpose(),
+                     across(history.torque), u.topRows<2>().colwise().norm().transpose(),
+                     u.row(2).transpose(), angle.topRows<2>().colwise().norm().transpose()});
     }
-  return bearings;
+  return all;
 }
 
 }  // namespace
@@ -303,7 +306,7 @@ const model::ElasticBody& Bodies::get(const std::string& file, const std::string
 
 double Bodies::compliance(const std::string& file) {
   Known& known = *known_.at(file);
-  if (!known.compliance) known.compliance = surface_compliance(file, known.body.surface);
+  if (!known.compliance) known.compliance = drive::surface_compliance(file, known.body.surface);
   return *known.compliance;
 }
 

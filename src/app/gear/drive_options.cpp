@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/console/console.h"
+#include "app/gear/bearing_options.h"
 #include "app/gear/cylindrical_options.h"
 #include "app/gear/design_options.h"
 #include "app/gear/misalignment.h"

@@ -12,9 +12,6 @@ OptionTable drive_table();
 /// The same with those of gear data that drives share: for verbs that have none of their own.
 OptionTable whole_drive_table();
 
-/// The rows of bearings.
-OptionTable bearing_table();
-
 /// The drive file's name without its end.
 std::string drive_stem(const Options& options);
 /// The member's body file.
@@ -41,13 +38,6 @@ Options member_options(const Options& options, const DriveMember& member);
 
 /// Options with the material of gears where none is given.
 Options with_steel(Options options);
-
-/// Options with bodies, places, joints, bearings, loads, contact and files of the drive where nothing is
-/// given.
-Options with_system(Options options, const Drive& drive);
-
-/// The bushings that stand for a member's bearings; none where its axis stands fast.
-std::vector<std::string> bearing_names(const Options& options, const DriveMember& member);
 
 /// Options with result, stress file and stresses at the roots of all members where nothing is given.
 Options with_recovery(Options options, const Drive& drive);

@@ -6,13 +6,13 @@
 #include <fstream>
 #include <set>
 
-#include "app/input/finite_elements.h"
 #include "app/options/units.h"
 #include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
+#include "elastogear/drive/finite_elements.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/life/revolution.h"
@@ -115,7 +115,7 @@ Stresses recovered(const LifeSettings& settings, const std::string& result) {
       continue;
     }
     recovery::RecoveredBody ready = recovery::prepare_recovery(
-        std::move(body), recovery::Acceleration::automatic, true, finite_elements());
+        std::move(body), recovery::Acceleration::automatic, true, drive::finite_elements());
     const model::ElasticBody elastic = recovery::read_elastic_body(ready.run);
     for (const std::string& set : sets->second)
       stresses.file.sets.push_back(recovery::recover_stress(ready, elastic, set, true));

@@ -16,7 +16,7 @@ namespace elastogear::app {
 /// What a row says of its values beside their kind, by bits.
 enum : unsigned {
   kPositive = 1,   ///< numbers > 0, counts > 0
-  kRequired = 2,   ///< the option has no default
+  kRequired = 2,   ///< the option has no default: it must be given where the struct has not got a value
   kDependent = 4,  ///< the default depends on other options and is not in the table
 };
 
@@ -116,7 +116,9 @@ struct Row {
       };
     else
       read = [=](const Options& options, const std::string& key, S& s) {
-        if (required || options.given(key)) std::invoke(member, s) = value_of<Value>(options, key, positive);
+        S defaults{};
+        if (options.given(key) || (required && std::invoke(member, s) == std::invoke(member, defaults)))
+          std::invoke(member, s) = value_of<Value>(options, key, positive);
       };
   }
 

@@ -4,6 +4,7 @@
 
 #include "app/console/console.h"
 #include "app/gear/drive_options.h"
+#include "app/gear/drive_system.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/static.h"
 
@@ -16,13 +17,13 @@ bool begins_loaded(const Options& options) {
          options.placeholder_values("<body>_rotation_motion").empty();
 }
 
-// The static analysis of the drive. Viscoelastic materials that relax in the motion begin as under a load
+// For the static analysis of the drive. Viscoelastic materials that relax in the motion begin as under a load
 // that was put on just now.
 Options at_rest(const Options& given) {
   Options options = with_gears(given);
   options.set("analysis", "static");
   if (options.given("moduli") && options.text("moduli") == "relaxing") options.set("moduli", "instantaneous");
-  return with_system(options, read_drive(options));
+  return options;
 }
 
 }  // namespace
@@ -31,7 +32,9 @@ std::unique_ptr<dynamics::System> begin_loaded(const Options& given, KnownBodies
                                                dynamics::SystemModel& model) {
   if (!begins_loaded(with_gears(given))) return nullptr;
   std::optional<Silence> silence(std::in_place);
-  SystemSetup setup = system_setup(at_rest(given), known);
+  const Options options = at_rest(given);
+  const Drive drive = read_drive(options);
+  SystemSetup setup = system_setup(with_system(options, drive), &drive, known);
   make_static(setup, 0);
   auto still =
       std::make_unique<dynamics::System>(setup.bodies, setup.pairs, setup.environment, setup.markers);

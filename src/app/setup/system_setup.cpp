@@ -4,6 +4,8 @@
 #include <iterator>
 
 #include "app/console/console.h"
+#include "app/gear/bearing_options.h"
+#include "app/gear/drive_system.h"
 #include "app/options/rows.h"
 #include "app/setup/resumable_run.h"
 #include "app/tables/contact_options.h"
@@ -11,7 +13,6 @@
 #include "app/tables/marker_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/station_choice.h"
-#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -83,14 +84,21 @@ std::string points_text(const contact::Settings& settings) {
 
 OptionTable environment_table() { return table_of(kEnvironmentRows); }
 
-SystemSetup system_setup(const Options& options, KnownBodies& known) {
+SystemSetup system_setup(const Options& options, const Drive* drive, KnownBodies& known) {
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
   SystemSetup setup;
+  const drive::DriveSystem start = drive ? drive_system(options, *drive) : drive::DriveSystem{};
   setup.pairs = pair_setups(options, names);
   read_rows(options, kEnvironmentRows, setup.environment);
-  setup.markers = marker_setups(options);
-  for (const std::string& name : names) setup.bodies.push_back(body_setup(options, name, known));
+  setup.markers = marker_setups(options, start.markers);
+  for (const std::string& name : names) {
+    BodyStart body{{.name = name}};
+    for (std::size_t i = 0; i < start.bodies.size(); ++i)
+      if (start.bodies[i].name == name)
+        body = {start.bodies[i], &drive->members[i], bearings(options, drive->members[i])};
+    setup.bodies.push_back(body_setup(options, body, known));
+  }
   require_state_is_used(options, setup.bodies);
   return setup;
 }
@@ -102,11 +110,9 @@ model::ResultHeader result_header(const Options& options, const dynamics::System
     const std::string file = body.name + "_file";
     body.file = options.given(file) ? options.text(file) : "";
   }
-  header.provenance = options.provenance();
+  header.provenance.merge(options.provenance());
   std::map<std::string, std::string> identities;
   for (const auto& [name, body] : known) identities[name] = body.identity;
-  for (const dynamics::SystemModel::Body& body : system.bodies)
-    header.provenance[model::rigid_key(body.name)] = dynamics::is_rigid(body) ? "true" : "false";
   add_inputs(options, identities, header.provenance);
   return header;
 }

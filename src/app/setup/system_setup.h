@@ -19,8 +19,9 @@ struct SystemSetup {
   dynamics::MarkerSetups markers;
 };
 
-/// The system that the options describe; bodies that are not known yet are read.
-SystemSetup system_setup(const Options& options, KnownBodies& known);
+/// The system that the options describe; bodies that are not known yet are read. With a drive it is that of
+/// the drive where no option says otherwise; null: there is none.
+SystemSetup system_setup(const Options& options, const Drive* drive, KnownBodies& known);
 
 /// The header of its result file, with files of the bodies and provenance.
 model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,

@@ -6,14 +6,12 @@
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
-#include "app/gear/drive_options.h"
 #include "app/gear/modification_options.h"
 #include "app/input/column_table.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
-#include "elastogear/drive/exact_flanks.h"
-#include "elastogear/drive/flank_surface.h"
+#include "elastogear/drive/drive_system.h"
 
 namespace elastogear::app {
 namespace {
@@ -33,17 +31,7 @@ const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
      "nodes, 0 at others"},
 };
 
-using drive::Layers, drive::Teeth;
-
-Layers layers_of(bool is_worm) { return is_worm ? Layers::axial : Layers::transverse; }
-
-// Those of a body that is a member of the run's drive; nothing for other bodies.
-std::optional<Teeth> teeth_of_drive(const Options& options, const std::string& body) {
-  if (!is_drive(options)) return {};
-  for (const DriveMember& member : read_drive(options).members)
-    if (member.name == body) return Teeth{member.toothing, member.deviations, layers_of(member.is_worm)};
-  return {};
-}
+using drive::Teeth;
 
 // The teeth of the part that files of gear data describe.
 Teeth read_teeth(const std::vector<std::string>& files) {
@@ -54,32 +42,31 @@ Teeth read_teeth(const std::vector<std::string>& files) {
   read_rows(options, design_rows(), design);
   try {
     const gear::Geometry geometry = gear::derive(design);
-    return {worm ? geometry.worm : geometry.wheel, {}, layers_of(worm)};
+    return {
+        worm ? geometry.worm : geometry.wheel, {}, worm ? drive::Layers::axial : drive::Layers::transverse};
   } catch (const Error& error) {
     fail(join(files), ": ", error.what());
   }
 }
 
 // file: where the gear data come from.
-void add_flanks(const Teeth& teeth, const std::string& file, const std::string& body,
-                const model::Surface& surface, contact::TrueSurface& known) {
-  const drive::OffNode farthest = drive::farthest_node(teeth, surface);
-  require(farthest.node >= 0, file, ": body '", body, "' has no faces of sets tooth_<ii>_left, ..._right or ",
-          "thread_<i>_left, ..._right: reduce it with -surface flanks, from a mesh of elastogear mesh, or "
-          "leave out -",
-          body, "_flanks");
-  require(farthest.distance <= drive::kOnFlank, file, ": node ", farthest.node, " of body '", body, "', in ",
-          farthest.group, ", is ", farthest.distance, " m off the flank of this gear data, allowed is ",
-          drive::kOnFlank, " m: name the files that the body was meshed from by -", body,
-          "_flanks, or mesh it anew");
-  drive::FlankHeights heights = drive::flank_heights(teeth, surface, !is_silenced());
-  known.height = std::move(heights.height);
-  known.flanks = drive::exact_flanks(teeth.toothing, teeth.deviations, teeth.layers);
-  print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
-                                        with_unit(farthest.distance, "m") + " of " + file);
+contact::TrueSurface flanks_of(const Teeth& teeth, const std::string& file, const std::string& body,
+                               const model::Surface& surface) {
+  const drive::FlankSurface found = [&] {
+    try {
+      return drive::flank_surface(teeth, surface, !is_silenced());
+    } catch (const Error& error) {
+      fail(file, ": body '", body, "': ", error.what(),
+           ". Make the body anew from a mesh of this gear data, ",
+           "with -surface flanks, or name the files that it was meshed from by -", body, "_flanks");
+    }
+  }();
+  print_detail("flanks of " + body, std::to_string(found.n_faces) + " faces, nodes within " +
+                                        with_unit(found.farthest.distance, "m") + " of " + file);
   if (teeth.deviations)
     print_item("modified flanks of " + body,
-               "followed within " + with_unit(heights.error * 1e6, "um") + " by polynomials over the faces");
+               "followed within " + with_unit(found.error * 1e6, "um") + " by polynomials over the faces");
+  return found.surface;
 }
 
 void add_deviations(const std::string& file, const std::string& body, const model::Surface& surface,
@@ -122,15 +109,17 @@ std::string true_surface_input(const Options& options, const std::string& body) 
 }
 
 std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options, const std::string& body,
+                                                         const DriveMember* member,
                                                          const model::Surface& surface) {
   TrueSurfaceFiles files;
   read_rows(options, kTrueSurfaceRows, files, body);
-  const bool exact = options.text("contact_surface") == "exact";
   auto known = std::make_shared<contact::TrueSurface>();
-  if (exact && !files.flanks.empty())
-    add_flanks(read_teeth(files.flanks), join(files.flanks), body, surface, *known);
-  else if (const auto teeth = teeth_of_drive(options, body); exact && teeth)
-    add_flanks(*teeth, join(options.files()), body, surface, *known);
+  if (options.text("contact_surface") == "exact") {
+    if (!files.flanks.empty())
+      *known = flanks_of(read_teeth(files.flanks), join(files.flanks), body, surface);
+    else if (member)
+      *known = flanks_of(drive::teeth_of(*member), join(options.files()), body, surface);
+  }
   if (!files.deviation.empty()) add_deviations(files.deviation, body, surface, *known);
   return known;
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/gear/bearing_options.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"

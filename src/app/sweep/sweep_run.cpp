@@ -8,9 +8,11 @@
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
+#include "app/gear/drive_system.h"
 #include "app/gear/worm_options.h"
 #include "app/setup/drive_input.h"
 #include "app/setup/resumable_run.h"
+#include "app/setup/system_setup.h"
 #include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
 #include "app/sweep/sweep_results.h"
@@ -70,7 +72,9 @@ PreparedCase prepare(SweepJob& job, std::size_t number) {
   const Options own = of_case(job.options, job.cases, job.cases.cases[number]);
   const Drive drive = drive_at_zero(own);
   PreparedCase prepared{with_system(own, drive), {}, {}};
-  prepared.motion = slow_motion(prepared.options, drive, system_setup(prepared.options, job.known));
+  const SystemSetup setup = system_setup(prepared.options, &drive, job.known);
+  prepared.motion = drive::slow_motion(drive, operation(prepared.options, drive),
+                                       {setup.bodies, setup.pairs, setup.markers}, setup.environment);
   const dynamics::SlowMotion& motion = prepared.motion;
   prepared.motion.prepared = dynamics::prepare(motion);
   const dynamics::SystemModel& model = motion.prepared->model();

@@ -4,7 +4,6 @@
 
 #include "app/console/console.h"
 #include "app/options/rows.h"
-#include "app/surface/flank_material.h"
 #include "app/surface/true_surface.h"
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
@@ -13,6 +12,7 @@
 #include "elastogear/base/rotation.h"
 #include "elastogear/base/tensor.h"
 #include "elastogear/body/rigid.h"
+#include "elastogear/drive/surface_compliance.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/model/fingerprint.h"
 
@@ -33,8 +33,11 @@ struct BodySource {
 
 // A number, or three where the joint takes a vector.
 void set_rate(const Options& options, const std::string& name, double& scalar, Eigen::Vector3d& vector) {
+  if (!options.given(name)) return;
   const std::size_t n = options.numbers(name).size();
   require(n == 1 || n == 3, "option -", name, ": must be one number, or three x,y,z for a free body");
+  scalar = 0;
+  vector.setZero();
   if (n == 3)
     vector = options.vector(name);
   else
@@ -58,7 +61,9 @@ const Rows<BodySource> kSourceRows = {
 const Rows<Setup> kBodyRows = {
     {"<body>_position", in(&Setup::joint, &Joint::r_WB0), "m", "origin of the body frame in the world"},
     {"<body>_rotation", "rad", "0,0,0", "rotation vector from the body frame to the world",
-     [](auto& o, auto& name, auto& s) { s.joint.R_WB0 = rotation_matrix(o.vector(name)); }},
+     [](auto& o, auto& name, auto& s) {
+       if (o.given(name)) s.joint.R_WB0 = rotation_matrix(o.vector(name));
+     }},
     {"<body>_joint", in(&Setup::joint, &Joint::type), body::joint_names(),
      "fixed, revolute, prismatic, cylindrical, spherical or free"},
     {"<body>_axis", in(&Setup::joint, &Joint::axis), "-", "direction of the joint's axis in the body frame"},
@@ -72,9 +77,13 @@ const Rows<Setup> kBodyRows = {
     {"<body>_velocity0", "m/s", "0", "initial velocity: along the axis; free: x,y,z in the world",
      [](auto& o, auto& name, auto& s) { set_rate(o, name, s.translation.s_dot_0, s.velocity0); }},
     {"<body>_torque", "N m", "0", "about the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
-     [](auto& o, auto& name, auto& s) { s.rotation.load = signal(o, name); }},
+     [](auto& o, auto& name, auto& s) {
+       if (o.given(name)) s.rotation.load = signal(o, name);
+     }},
     {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
-     [](auto& o, auto& name, auto& s) { s.translation.load = signal(o, name); }},
+     [](auto& o, auto& name, auto& s) {
+       if (o.given(name)) s.translation.load = signal(o, name);
+     }},
     {"<body>_rotation_motion", "rad", "",
      "prescribed rotation, from the initial one on: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, "
      "FILE.csv]"},
@@ -106,9 +115,12 @@ void check_free_body(const dynamics::BodySetup& setup) {
                             "its mean motion is");
 }
 
-// The initial value is set already.
+// A prescribed motion starts from the axis's initial value.
 void set_drive(const Options& options, const std::string& name, Axis& axis) {
-  if (options.given(name)) axis.drive = drive(options, name, std::exchange(axis.s_0, 0));
+  if (options.given(name))
+    axis.drive = drive(options, name, std::exchange(axis.s_0, 0));
+  else if (axis.drive)
+    axis.drive->s_0 = std::exchange(axis.s_0, 0);
 }
 
 // identity: of the file's contents, whatever options leave out of them.
@@ -142,14 +154,15 @@ OptionTable body_table() {
   return table;
 }
 
-dynamics::BodySetup body_setup(const Options& options, const std::string& name, KnownBodies& known) {
-  Setup setup;
-  setup.name = name;
+dynamics::BodySetup body_setup(const Options& options, const BodyStart& start, KnownBodies& known) {
+  Setup setup = start.setup;
+  const std::string& name = setup.name;
+  if (setup.rotation.drive) setup.rotation.s_0 = setup.rotation.drive->s_0;
   read_rows(options, kBodyRows, setup, name);
   const body::JointType joint = setup.joint.type;
   require(
       !options.given(name + "_axis") || body::has_rotation_axis(joint) || body::has_translation_axis(joint),
-      "option -", name, "_axis: a ", options.text(name + "_joint"),
+      "option -", name, "_axis: a ", body::joint_names()[static_cast<std::size_t>(joint)],
       " joint has no axis; revolute, prismatic and cylindrical joints have");
   set_initial_state(options, setup);
   set_drive(options, name + "_rotation_motion", setup.rotation);
@@ -158,19 +171,20 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name, 
   if (!own.body) {
     model::ElasticBody body = read_or_make_body(options, name, own.identity);
     change_body(options, name, body);
+    drive::add_bearing_markers(start.bearings, body);
     own.body = std::make_shared<model::ElasticBody>(std::move(body));
   }
   setup.body = own.body;
   set_relaxed_state(options, setup);
   if (const std::string input = true_surface_input(options, name);
       !own.true_surface || own.true_surface_input != input) {
-    own.true_surface = true_surface(options, name, setup.body->surface);
+    own.true_surface = true_surface(options, name, start.member, setup.body->surface);
     own.true_surface_input = input;
   }
   setup.true_surface = own.true_surface;
   if (own.true_surface && options.given(name + "_file")) {
     if (!own.surface_compliance)
-      own.surface_compliance = surface_compliance(options.text(name + "_file"), setup.body->surface);
+      own.surface_compliance = drive::surface_compliance(options.text(name + "_file"), setup.body->surface);
     setup.surface_compliance = *own.surface_compliance;
   }
   check_free_body(setup);

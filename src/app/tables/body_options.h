@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "app/gear/drive.h"
 #include "app/options/options.h"
+#include "elastogear/drive/drive_system.h"
 #include "elastogear/dynamics/system.h"
 
 namespace elastogear::app {
@@ -24,7 +26,14 @@ struct KnownBody {
 };
 using KnownBodies = std::map<std::string, KnownBody>;
 
-/// The setup of the body of this name, which is read unless it is known.
-dynamics::BodySetup body_setup(const Options& options, const std::string& name, KnownBodies& known);
+/// A body as it is where no option says otherwise.
+struct BodyStart {
+  dynamics::BodySetup setup;
+  const DriveMember* member = nullptr;        ///< gear of a drive that it is; null: none
+  std::vector<drive::Bearing> bearings = {};  ///< of the gear
+};
+
+/// The setup of a body, which is read unless it is known.
+dynamics::BodySetup body_setup(const Options& options, const BodyStart& start, KnownBodies& known);
 
 }  // namespace elastogear::app

@@ -27,10 +27,12 @@ dynamics::MarkerName marker_name(const std::string& option, const std::string& t
 }
 
 void set_ends(const Options& options, const std::string& name, Bushing& bushing) {
+  const bool has_ends = !bushing.marker[0].body.empty() || !bushing.marker[1].body.empty();
+  if (has_ends && !options.given(name)) return;
   const std::vector<std::string> ends = options.list(name);
   require(ends.size() == 2, "option -", name, ": must be two, BODY.MARKER or ", kGround);
   for (int i : {0, 1})
-    if (ends[i] != kGround) bushing.marker[i] = marker_name(name, ends[i]);
+    bushing.marker[i] = ends[i] == kGround ? dynamics::MarkerName{} : marker_name(name, ends[i]);
 }
 
 // name,x,y,z, ...
@@ -48,6 +50,13 @@ void add_points(const Options& options, const std::string& option, ElasticBody& 
     marker.Phi = model::SparseRows(6, body.n_q());
     body.markers.push_back(marker);
   }
+}
+
+// The setup of this name, or null.
+template <class Setup>
+const Setup* named(const std::vector<Setup>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Setup& s) { return s.name == name; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 void set_ratio(const Options& options, const std::string& name, ElasticBody& body) {
@@ -72,7 +81,9 @@ const Rows<ElasticBody> kChangeRows = {
 const Rows<Load> kLoadRows = {
     {"loads", "-", "", "names of forces and torques at markers; each has its own <load>_... keys"},
     {"<load>_marker", "-", "", "BODY.MARKER; every body has the marker frame",
-     [](auto& o, auto& name, auto& load) { load.marker = marker_name(name, o.text(name)); }},
+     [](auto& o, auto& name, auto& load) {
+       if (load.marker.body.empty() || o.given(name)) load.marker = marker_name(name, o.text(name));
+     }},
     {"<load>_force", &Load::force, "N", "force"},
     {"<load>_torque", &Load::torque, "N m", "torque"},
     {"<load>_pressure", &Load::pressure, "Pa",
@@ -99,7 +110,9 @@ const Rows<Bushing> kBushingRows = {
     {"<bushing>_damping", in(&Bushing::law, &BushingLaw::c), "N s/m", "along its axes"},
     {"<bushing>_axes", "rad", "0,0,0",
      "rotation vector that turns x,y,z into its axes; z is the one about which it may turn all the way",
-     [](auto& o, auto& name, auto& b) { b.axes = rotation_matrix(o.vector(name)); }},
+     [](auto& o, auto& name, auto& b) {
+       if (o.given(name)) b.axes = rotation_matrix(o.vector(name));
+     }},
     {"<bushing>_frame", &Bushing::axes_of_first, one_of("world", "body"),
      "which x,y,z at the start: world, or body (of the first marker)"},
 };
@@ -124,16 +137,19 @@ PlaceholderValues simulate_names(const Options& options) {
   return names;
 }
 
-dynamics::MarkerSetups marker_setups(const Options& options) {
+dynamics::MarkerSetups marker_setups(const Options& options, const dynamics::MarkerSetups& start) {
   dynamics::MarkerSetups setups;
   for (const std::string& name : options.list("loads")) {
-    require(options.given(name + "_force") || options.given(name + "_torque") ||
+    const Load* known = named(start.loads, name);
+    require(known || options.given(name + "_force") || options.given(name + "_torque") ||
                 options.given(name + "_pressure"),
             "load ", name, ": give -", name, "_force, -", name, "_torque or -", name, "_pressure");
-    read_rows(options, kLoadRows, setups.loads.emplace_back(Load{name, {}}), name);
+    read_rows(options, kLoadRows, setups.loads.emplace_back(known ? *known : Load{name, {}}), name);
   }
-  for (const std::string& name : options.list("bushings"))
-    read_rows(options, kBushingRows, setups.bushings.emplace_back(Bushing{name, {}}), name);
+  for (const std::string& name : options.list("bushings")) {
+    const Bushing* known = named(start.bushings, name);
+    read_rows(options, kBushingRows, setups.bushings.emplace_back(known ? *known : Bushing{name, {}}), name);
+  }
   for (const std::string& name : options.placeholder_values("sensors_<sensor>")) {
     const std::string option = "sensors_" + name;
     setups.sensors.push_back({name, marker_name(option, options.text(option))});

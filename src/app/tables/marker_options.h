@@ -17,7 +17,8 @@ OptionTable marker_table();
 /// and the command line leaves out. Throws Error when two are equal.
 PlaceholderValues simulate_names(const Options& options);
 
-dynamics::MarkerSetups marker_setups(const Options& options);
+/// start: loads and bushings of a drive, from which options depart.
+dynamics::MarkerSetups marker_setups(const Options& options, const dynamics::MarkerSetups& start);
 
 /// Markers at points of the body frame, and damping in place of the body file's.
 void change_body(const Options& options, const std::string& name, model::ElasticBody& body);

@@ -49,7 +49,6 @@ auto from_table(const std::string& path, const std::string& unit, const Make& ma
 }  // namespace
 
 dynamics::Signal signal(const Options& options, const std::string& name) {
-  if (!options.given(name)) return {};
   const std::vector<std::string> words = options.list(name);
   if (words.size() == 1) return dynamics::constant_signal(number(name, words[0]));
   if (words.size() == 3 && words[0] == "ramp")

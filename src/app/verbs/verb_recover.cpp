@@ -7,7 +7,6 @@
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
-#include "app/input/finite_elements.h"
 #include "app/options/verbs.h"
 #include "app/setup/drive_input.h"
 #include "app/tables/recover_options.h"
@@ -16,6 +15,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/log_stage.h"
 #include "elastogear/base/text.h"
+#include "elastogear/drive/finite_elements.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/io/result_file.h"
@@ -68,7 +68,7 @@ Run read_run(const RecoverSettings& settings, const Progress& progress) {
     }
     const bool with_error = needs_error(settings, body.name);
     run.bodies.push_back(recovery::prepare_recovery(std::move(body), settings.mode_acceleration, with_error,
-                                                    finite_elements()));
+                                                    drive::finite_elements()));
   }
   report(progress, "static responses", 1);
   return run;
@@ -196,7 +196,7 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
         series.push_back({run.time[now[i]], std::filesystem::path(paths.back()).filename().string(),
                           static_cast<int>(&recovered - run.bodies.data()), body.name});
       }
-      recovery::write_fields(paths, body.file, source, states, finite_elements());
+      recovery::write_fields(paths, body.file, source, states, drive::finite_elements());
       for (const std::string& path : paths) print_item("written", path);
     }
   }

@@ -11,6 +11,8 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/gear/drive_options.h"
+#include "app/gear/drive_system.h"
 #include "app/options/rows.h"
 #include "app/options/verbs.h"
 #include "app/setup/drive_input.h"
@@ -238,13 +240,26 @@ void add_relaxed_states(const std::string& output, const dynamics::System& syste
   if (!start.empty()) io::add_relaxed_states(output, start, io::kRelaxedStart);
 }
 
-// A drive file says what bodies there are and where.
-Options of_system(const Options& given) {
+// Options of a run, and the drive that they describe, which says what bodies there are and where.
+struct Input {
+  Options options;
+  std::optional<Drive> drive = {};
+
+  const Drive* drive_or_null() const { return drive ? &*drive : nullptr; }
+};
+
+Input input_of(const Options& given) {
   const Options options = with_gears(given);
-  if (!is_drive(options)) return options;
+  if (!is_drive(options)) return {options};
   const Drive drive = read_drive(options);
   print_facts(drive);
-  return with_system(options, drive);
+  Input input{with_system(options, drive), drive};
+  return input;
+}
+
+void require_known(const Input& input) {
+  input.options.reject_unknown(simulate_names(input.options));
+  if (input.drive) require_bodies(input.options, *input.drive);
 }
 
 // Static responses alone have no inertia.
@@ -272,10 +287,10 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   MPI_Comm_size(PETSC_COMM_WORLD, &n_ranks);
   require(n_ranks == 1, "runs on one rank, not on ", n_ranks,
           ", but for analysis: sweep: call it without mpirun");
-  const Options options = of_system(given);
+  const Input input = input_of(given);
+  const Options& options = input.options;
   require(!options.list("bodies").empty(), "option -bodies is missing: names of the bodies");
-  options.reject_unknown(simulate_names(options));
-  if (is_drive(options)) require_bodies(options, read_drive(options));
+  require_known(input);
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
   const OutputLock lock(output);
@@ -284,7 +299,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
           options.label("time_under_load"), ": belongs to analysis: static");
   std::optional<LogStage> stage("bodies and set-up of contact");
   KnownBodies known;
-  SystemSetup setup = system_setup(options, known);
+  SystemSetup setup = system_setup(options, input.drive_or_null(), known);
   if (analysis(options) == Analysis::equilibrium) make_static(setup, time_of_loads(options));
 
   const auto made = make_system(given, analysis(options), setup, known);
@@ -337,15 +352,15 @@ void set_laws(const ProgramLaws& laws, SystemSetup& setup) {
 PreparedSimulation prepare_simulation(const Options& given, const MakeLaws& make_laws) {
   Options motion = given;
   if (is_drive(motion)) motion.set_default("analysis", "dynamic");
-  const Options options = of_system(motion);
-  options.reject_unknown(simulate_names(options));
-  if (is_drive(options)) require_bodies(options, read_drive(options));
+  const Input input = input_of(motion);
+  const Options& options = input.options;
+  require_known(input);
   const Analysis kind = analysis(options);
   require(kind == Analysis::dynamic || kind == Analysis::relax, options.label("analysis"), " = '",
           options.text("analysis"), "': has no time steps; give analysis: dynamic or relax");
   TimeSettings time = time_settings(options);
   KnownBodies known;
-  SystemSetup setup = system_setup(options, known);
+  SystemSetup setup = system_setup(options, input.drive_or_null(), known);
   set_laws(make_laws(options.list("loads")), setup);
   PreparedSimulation prepared{make_system(motion, kind, setup, known), time, {}};
   prepared.header = result_header(options, prepared.system->model(), known);

@@ -33,10 +33,6 @@ double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
 
 }  // namespace
 
-bool is_rigid(const SystemModel::Body& body) {
-  return body.eq.n_q() == 0 && body.eq.body->flexibility.empty();
-}
-
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];

@@ -1,4 +1,4 @@
-#include "app/input/finite_elements.h"
+#include "elastogear/drive/finite_elements.h"
 
 #include <memory>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 namespace {
 
 recovery::UnreducedResponse unreduced_response(const io::BodySource& source, bool floating) {
@@ -69,4 +69,4 @@ recovery::FiniteElements finite_elements() {
           difference_within_surface, stress_operator, stress_difference, surface_patches};
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive

@@ -1,4 +1,4 @@
-#include "app/surface/flank_material.h"
+#include "elastogear/drive/surface_compliance.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/body_materials.h"
 
-namespace elastogear::app {
+namespace elastogear::drive {
 
 namespace {
 
@@ -47,4 +47,4 @@ double surface_compliance(const std::string& file, const model::Surface& surface
   return region < 0 ? 0 : compliance(source.regions[static_cast<std::size_t>(region)].material);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::drive
