@@ -32,7 +32,7 @@ struct WormCounts {
 WormCounts worm_counts(Size size, int z1 = Design{}.z1, int order = 1);
 
 /// The counts of a worm with z1 starts times a number > 0, as far as they are whole, with rows that grow as
-/// before over the same depth.
+/// before over the same depth. Layers of the shaft are its square root times as many.
 WormCounts refined(WormCounts counts, int z1, double times);
 
 /// Mesh in the worm frame. Face sets left, right, flanks, `thread_<i>_left`, `thread_<i>_right`; node sets

@@ -214,8 +214,8 @@ WormCounts worm_counts(Size size, int z1, int order) {
 WormCounts refined(WormCounts n, int z1, double times) {
   if (times == 1) return n;
   n.tooth = 2 * refined(n.tooth / 2, times);
-  for (int* count : {&n.space, &n.flank, &n.fillet, &n.ring, &n.turn, &n.shaft})
-    *count = refined(*count, times);
+  for (int* count : {&n.space, &n.flank, &n.fillet, &n.ring, &n.turn}) *count = refined(*count, times);
+  n.shaft = refined(n.shaft, std::sqrt(times));
   for (double* growth : {&n.growth, &n.tooth_growth}) *growth = refined_growth(*growth, times);
   return with_whole_turn(n, z1);
 }
