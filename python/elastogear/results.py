@@ -6,6 +6,7 @@ import json
 import os
 from typing import TYPE_CHECKING, Any, Optional, Union
 
+import numpy as np
 from numpy.typing import NDArray
 
 from . import _elastogear as _library
@@ -275,11 +276,15 @@ class Evaluation:
         """One line on a figure."""
         return self._find(path)[2]
 
-    def error(self, path: str) -> Optional[float]:
-        """Sum of the estimated errors of a figure by all causes, in its unit; None where none is estimated."""
+    def error(self, path: str) -> Union[float, Array, None]:
+        """Sum of the estimated errors of a figure by all causes, in its unit and of its shape; None where none is
+        estimated."""
         whole = next(each for each, item in self._items.items() if item is self._find(path))
-        parts = [float(self._items[whole + cause][0]) for cause in _CAUSES if whole + cause in self._items]
-        return sum(parts) if parts else None
+        parts = [self._items[whole + cause][0] for cause in _CAUSES if whole + cause in self._items]
+        if not parts:
+            return None
+        total = sum(np.asarray(part) for part in parts)
+        return total if np.ndim(total) else float(total)
 
     def __repr__(self) -> str:
         return f"<elastogear.Evaluation {self.path}: {len(self._items)} figures>"

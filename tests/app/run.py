@@ -5,9 +5,12 @@
 """
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
+
+import h5py
 
 ELASTOGEAR, MPIRUN = os.path.abspath(sys.argv[1]), sys.argv[2]
 DRIVE = """drive: cylindrical
@@ -69,6 +72,12 @@ def accurate():
         assert name + "_mesh_error" in pair[group], f"{group}/{name} has no error"
     shares = {name: pair["stiffness"][name + "_mesh_error"]["value"] / pair["stiffness"][name]["value"] for name in ("secant_mean", "secant_per_width")}
     assert abs(shares["secant_mean"] - shares["secant_per_width"]) < 1e-9, shares
+    # Each order of the transmission error has its own, and the lowest ones are on the screen with it.
+    with h5py.File("accurate_evaluation.h5") as file:
+        error = next(iter(file["cases"].values()))["pinion:wheel/transmission_error"]
+        amplitude, errors = error["amplitude"][()], error["amplitude_mesh_error"][()]
+    assert errors.shape == amplitude.shape and errors.min() == sorted(errors[:5])[len(errors[:5]) // 2] > 0, errors
+    assert re.search(r"orders of the mesh 1: [\d.]+ \+- [\d.]+", said), said
     assert pair["teeth"]["largest_share"]["value"] == 1 and "largest_share_mesh_error" not in pair["teeth"], pair["teeth"]
     assert made(run("accurate.yaml")) == (False, False)
     # A finer mesh where that is asked; the coarser ones are there.

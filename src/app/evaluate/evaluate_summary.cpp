@@ -215,17 +215,20 @@ void print_pressure(const PairsOfKind& of, const Surroundings& about) {
                  shear_below(pair.items));
 }
 
-// Amplitudes of the first orders of the mesh, "1: 5.87, 2: 2.42".
+// Amplitudes of the first orders of the mesh with their errors, where these are known: "1: 5.87 +- 0.12, 2:
+// 2.42 +- 0.05".
 std::string orders_of(const Items& items, const std::string& path, double factor) {
   const EvaluationItem *order = find_item(items, path + "/order"),
-                       *amplitude = find_item(items, path + "/amplitude");
+                       *amplitude = find_item(items, path + "/amplitude"),
+                       *error = find_item(items, path + "/amplitude_mesh_error");
   if (!order || !amplitude) return "";
   std::string text;
   constexpr int kFirst = 3;
   for (std::size_t i = 0, n = 0; i < order->value.size() && n < kFirst; ++i) {
     if (order->value[i] != std::round(order->value[i]) || !(order->value[i] > 0)) continue;
-    text +=
-        (n++ ? ", " : "") + short_number(order->value[i]) + ": " + short_number(factor * amplitude->value[i]);
+    const double value = factor * amplitude->value[i];
+    text += (n++ ? ", " : "") + short_number(order->value[i]) + ": " +
+            (error ? Span{value, value, factor * error->value[i]}.text() : short_number(value));
   }
   return text;
 }

@@ -21,6 +21,7 @@ constexpr const char* kRootTension = "/largest_tension";
 constexpr const char* kLargestShare = "teeth/largest_share";
 // The largest of means over strips of a face: it changes with their width, to the first order.
 constexpr const char* kFaceLoad = "line_load/KHbeta";
+constexpr const char* kAmplitudes = "transmission_error/amplitude";
 constexpr double kOrder = 2, kFaceOrder = 1;
 constexpr double kSame = 1e-12;  // share: what the figures of two meshes may differ by from roundoff
 
@@ -68,19 +69,24 @@ void require_pair(const CoarserMesh& mesh, const std::string& group) {
   require(found, mesh.file, ": has no figures of ", group.substr(0, group.size() - 1));
 }
 
-// Nothing where a coarser mesh has not the figure.
-std::optional<double> error_of(const std::vector<CoarserMesh>& coarser, const std::string& path,
-                               double finest, double refinement, double order) {
-  std::vector<double> value, refinements;
+// Of each of a figure's values; empty where a coarser mesh has not the figure, or another number of them.
+std::vector<double> errors_of(const std::vector<CoarserMesh>& coarser, const std::string& path,
+                              const std::vector<double>& finest, double refinement, double order) {
+  std::vector<std::vector<double>> value(finest.size());
+  std::vector<double> refinements;
   for (const CoarserMesh& mesh : coarser) {
     const EvaluationItem* item = find_item(mesh.evaluation.items, path);
-    if (!item || item->value.size() != 1) return {};
-    value.push_back(item->value[0]);
+    if (!item || item->value.size() != finest.size()) return {};
+    for (std::size_t i = 0; i < finest.size(); ++i) value[i].push_back(item->value[i]);
     refinements.push_back(mesh.refinement);
   }
-  value.push_back(finest);
   refinements.push_back(refinement);
-  return evaluation::mesh_error(value, refinements, order);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < finest.size(); ++i) {
+    value[i].push_back(finest[i]);
+    errors.push_back(evaluation::mesh_error(value[i], refinements, order));
+  }
+  return errors;
 }
 
 // Figures of a class and their errors.
@@ -89,9 +95,27 @@ struct Class {
   std::vector<double> figure, error;
 };
 
-EvaluationItem error_item(const EvaluationItem& item, double error) {
-  return {
-      item.path + kErrorEnd, item.unit, "estimated error by the mesh, from coarser ones", {}, {error}, {}};
+EvaluationItem error_item(const EvaluationItem& item, std::vector<double> error) {
+  return {item.path + kErrorEnd, item.unit, "estimated error by the mesh, from coarser ones", item.shape,
+          std::move(error),      {}};
+}
+
+// Amplitudes of orders. None is taken for more accurate than the median of the lowest, which may have changed
+// little by chance.
+void add_amplitudes(const std::vector<CoarserMesh>& coarser, const std::string& group,
+                    const std::vector<EvaluationItem>& items, double refinement,
+                    std::vector<EvaluationItem>& errors) {
+  constexpr std::size_t kLowest = 5;
+  const EvaluationItem* item = find_item(items, kAmplitudes);
+  if (!item) return;
+  std::vector<double> error = errors_of(coarser, group + item->path, item->value, refinement, kOrder);
+  if (error.empty()) return;
+  std::vector<double> lowest(error.begin(),
+                             error.begin() + static_cast<std::ptrdiff_t>(std::min(kLowest, error.size())));
+  const auto median = lowest.begin() + std::ssize(lowest) / 2;
+  std::nth_element(lowest.begin(), median, lowest.end());
+  for (double& e : error) e = std::max(e, *median);
+  errors.push_back(error_item(*item, std::move(error)));
 }
 
 // A stiffness per width is one over the face width: its error is as large a share.
@@ -101,7 +125,7 @@ void add_per_width(const std::vector<EvaluationItem>& items, std::vector<Evaluat
     const std::string mean = item.path.substr(0, item.path.size() - std::strlen(kPerWidth)) + kMean;
     const EvaluationItem *whole = find_item(items, mean), *error = find_item(errors, mean + kErrorEnd);
     if (whole && error && whole->value[0] != 0)
-      errors.push_back(error_item(item, error->value[0] * item.value[0] / whole->value[0]));
+      errors.push_back(error_item(item, {error->value[0] * item.value[0] / whole->value[0]}));
   }
 }
 
@@ -115,17 +139,18 @@ std::vector<EvaluationItem> error_items(const std::vector<CoarserMesh>& coarser,
     const std::string name = class_of(item);
     if (name.empty()) continue;
     const double order = item.path == kFaceLoad ? kFaceOrder : kOrder;
-    const auto error = error_of(coarser, group + item.path, item.value[0], refinement, order);
-    if (!error || (item.path == kLargestShare && *error <= kSame)) continue;
+    const auto error = errors_of(coarser, group + item.path, item.value, refinement, order);
+    if (error.empty() || (item.path == kLargestShare && error[0] <= kSame)) continue;
     Class& of = classes[name];
-    of.item.push_back(&item), of.figure.push_back(item.value[0]), of.error.push_back(*error);
+    of.item.push_back(&item), of.figure.push_back(item.value[0]), of.error.push_back(error[0]);
   }
   std::vector<EvaluationItem> errors;
   for (auto& [name, of] : classes) {
     evaluation::raise_to_median(of.figure, of.error);
-    for (std::size_t i = 0; i < of.item.size(); ++i) errors.push_back(error_item(*of.item[i], of.error[i]));
+    for (std::size_t i = 0; i < of.item.size(); ++i) errors.push_back(error_item(*of.item[i], {of.error[i]}));
   }
   add_per_width(items, errors);
+  add_amplitudes(coarser, group, items, refinement, errors);
   return errors;
 }
 
