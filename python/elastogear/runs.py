@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import json
 import os
@@ -80,6 +81,17 @@ def _plain(value: Any) -> Any:
     return value
 
 
+def _flat(options: Mapping[str, Any], section: str = "") -> dict[str, Any]:
+    """Keys of sections joined with them, {"contact": {"friction": 0.1}} as {"contact_friction": 0.1}."""
+    flat: dict[str, Any] = {}
+    for key, value in options.items():
+        if isinstance(value, Mapping):
+            flat.update(_flat(value, f"{section}{key}_"))
+        else:
+            flat[f"{section}{key}"] = value
+    return flat
+
+
 def _yaml(options: Mapping[str, Any]) -> str:
     """JSON, which YAML reads, one key a line."""
     if not options:
@@ -111,7 +123,7 @@ class System:
         self._files: list[str] = []
         self._text = ""
         self._name = name or "drive"
-        self._options = dict(options)
+        self._options = _flat(options)
         if isinstance(source, Mapping):
             self._text = _yaml(source)
         elif name is not None:
@@ -120,7 +132,7 @@ class System:
             self._files = [os.fspath(source)]
 
     def _given(self, options: Mapping[str, Any]) -> _library.Given:
-        return _library.Given(self._files, self._text, self._name, _yaml({**self._options, **options}))
+        return _library.Given(self._files, self._text, self._name, _yaml({**self._options, **_flat(options)}))
 
     def _run(self, verb: str, options: Mapping[str, Any], progress: Optional[Progress] = None) -> Report:
         report = Report(_library.run_verb(verb, self._given(options), progress))
@@ -194,13 +206,52 @@ class Drive(System):
 
     facts     numbers of the design, {"pinion": {"tip diameter": 0.0647, ...}, "pinion:wheel": {...}}: each a
               Quantity; flank forms are texts
+
+    str(drive) is a table of the facts.
     """
+
+    facts: dict[str, dict[str, Union[Quantity, str]]]
 
     def __init__(self, source: Source, *, name: Optional[str] = None, **options: Any) -> None:
         super().__init__(source, name=name, **options)
-        self.facts: dict[str, dict[str, Union[Quantity, str]]] = {
+        self._derive()
+
+    def _derive(self) -> None:
+        self.facts = {
             part: {name: value if isinstance(value, str) else Quantity(value, unit) for name, value, unit in facts}
             for part, facts in _library.drive_facts(self._given({})).items()}
+
+    def replace(self, *, name: Optional[str] = None, **options: Any) -> "Drive":
+        """A drive of the same source with other options, which win: `drive.replace(wheel={"profile_shift": 0.2})`.
+        One that is None, or a section that is, is again that of the source.
+
+        name    stem of its files in place of that of a dict
+        """
+        other = copy.copy(self)
+        new = _flat(options)
+        gone = [key for key, value in new.items() if value is None]
+        other._options = {key: value for key, value in {**self._options, **new}.items()
+                          if not any(key == of or key.startswith(of + "_") for of in gone)}
+        if name is not None:
+            if self._files:
+                raise _library.Error("a name is for a dict; that of a file is its own")
+            other._name = name
+        other._derive()
+        return other
+
+    def differences(self, other: "Drive") -> dict[str, dict[str, tuple[Any, Any]]]:
+        """Facts that are others than those of another drive, by part and name: both values; None: it has none."""
+        found: dict[str, dict[str, tuple[Any, Any]]] = {}
+        for part in {**self.facts, **other.facts}:
+            mine, its = self.facts.get(part, {}), other.facts.get(part, {})
+            for name in {**mine, **its}:
+                if mine.get(name) != its.get(name):
+                    found.setdefault(part, {})[name] = (mine.get(name), its.get(name))
+        return found
+
+    def __str__(self) -> str:
+        return "\n".join(line for part, facts in self.facts.items()
+                         for line in [part, *(f"  {name:26} {value}" for name, value in facts.items())])
 
     def meshes(self, **options: Any) -> dict[str, _library.Mesh]:
         """The meshes of all gears, by name; nothing is written."""

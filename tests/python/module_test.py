@@ -99,6 +99,21 @@ class Runs(WithDrive):
         self.assertAlmostEqual(facts["pinion:wheel"]["ratio"], 43 / 17)
         self.assertEqual(copy.deepcopy(facts["pinion"]["bore"]).unit, "m")
 
+    def test_drives_are_varied_and_compared(self):
+        other = self.drive.replace(wheel={"profile_shift": 0.2}, torque="7 N m")
+        self.assertEqual(other.facts["wheel"]["profile shift"], 0.2)
+        wider = other.replace(wheel={"face_width": "20 mm"}, name="wider")
+        self.assertEqual(wider.facts["wheel"]["profile shift"], 0.2)
+        self.assertEqual(wider.facts["wheel"]["face width"], 20e-3)
+        differences = self.drive.differences(other)
+        self.assertEqual(differences["wheel"]["profile shift"], (0.1, 0.2))
+        self.assertIn("centre distance", differences["pinion:wheel"])
+        self.assertEqual(self.drive.differences(wider.replace(wheel=None)), {})
+        self.assertEqual(self.drive.differences(other.replace(wheel_profile_shift=0.1)), {})
+        self.assertRegex(str(self.drive), "pinion:wheel\n(.*\n)*  ratio +2.529")
+        with self.assertRaisesRegex(eg.Error, "profile_shift"):
+            self.drive.replace(pinion={"profile_shift": "large"})
+
     def test_run_makes_what_is_missing_and_returns_the_evaluation(self):
         drive = eg.Drive(SPUR, name="whole", face_width="6 mm", torque="50 N m", sweep_positions=3)
         first = drive.run(pinion_file="whole_pinion.h5", wheel_file="whole_wheel.h5")
