@@ -21,22 +21,20 @@ struct Fields {
   const io::BodySource& source;
   const FiniteElements& finite_elements;
 
-  // Phi q and, where there is one, a static displacement. q, u_static: of a state.
-  template <class Coordinates, class Static>
-  MatrixXd displacements(const States& states, const Coordinates& q, const Static& u_static) const {
+  // Phi q, 3 n_nodes x k. q: the elastic coordinates that count of a state.
+  template <class Coordinates>
+  MatrixXd displacements(const States& states, const Coordinates& q) const {
     MatrixXd Q(q(states.front()).size(), std::ssize(states));
     for (std::size_t i = 0; i < states.size(); ++i) Q.col(static_cast<Index>(i)) = q(states[i]);
-    MatrixXd U = io::read_displacement_fields(body_file, Q);
-    for (std::size_t i = 0; i < states.size(); ++i)
-      if (const VectorXd& u = u_static(states[i]); u.size() > 0) U.col(static_cast<Index>(i)) += u;
-    return U;
+    return io::read_displacement_fields(body_file, Q);
   }
   MatrixXd stresses(const MatrixXd& U) const { return finite_elements.nodal_stresses(source, U); }
 };
 
-const VectorXd kNothing;
-
-const VectorXd& no_displacement(const FieldState&) { return kNothing; }
+// Adds the static displacement of a state to its column of U, where it has one.
+void add_static(const VectorXd& u, std::size_t state, MatrixXd& U) {
+  if (u.size() > 0) U.col(static_cast<Index>(state)) += u;
+}
 
 // Takes the stresses that viscoelastic regions have relaxed from those at their nodes. docs/theory, Eq.
 // (4.10).
@@ -47,8 +45,7 @@ void subtract_relaxed(const Fields& fields, const States& states, MatrixXd& stre
   for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
     const model::RelaxingPart& part = body.relaxing[p];
     const auto lost = [&](const FieldState& state) -> VectorXd { return state.w.col(static_cast<Index>(p)); };
-    const MatrixXd of_part =
-        stress_of_part(fields.stresses(fields.displacements(states, lost, no_displacement)), part.part);
+    const MatrixXd of_part = stress_of_part(fields.stresses(fields.displacements(states, lost)), part.part);
     for (std::size_t node = 0; node < node_region.size(); ++node)
       if (const int r = node_region[node]; r >= 0 && fields.source.regions[r].cell_set == part.cell_set)
         stress.middleRows<6>(static_cast<Index>(6 * node)) -=
@@ -58,15 +55,15 @@ void subtract_relaxed(const Fields& fields, const States& states, MatrixXd& stre
 
 // n_nodes x k, Pa.
 MatrixXd estimated_errors(const Fields& fields, const States& states, const MatrixXd& found) {
-  const auto of_static = [](const FieldState& s) -> const VectorXd& { return s.reference->u_static; };
-  MatrixXd residual = fields.stresses(fields.displacements(
-      states, [](const FieldState& s) { return s.reference->q_d; }, of_static));
+  MatrixXd U = fields.displacements(states, [](const FieldState& s) { return s.reference->q_d; });
+  for (std::size_t i = 0; i < states.size(); ++i) add_static(states[i].reference->u_static, i, U);
+  MatrixXd residual = fields.stresses(U);
   const MatrixXd whole = von_mises(residual);
-  residual -= fields.stresses(fields.displacements(
-      states, [](const FieldState& s) { return s.reference->q; }, no_displacement));
+  residual -=
+      fields.stresses(fields.displacements(states, [](const FieldState& s) { return s.reference->q; }));
   const MatrixXd of_residual = von_mises(residual);
-  residual = fields.stresses(fields.displacements(
-      states, [](const FieldState& s) { return s.reference->q_upper; }, no_displacement));
+  residual =
+      fields.stresses(fields.displacements(states, [](const FieldState& s) { return s.reference->q_upper; }));
   const MatrixXd upper = von_mises(residual);
   MatrixXd error(found.rows(), found.cols());
   for (Index i = 0; i < found.cols(); ++i)
@@ -75,7 +72,7 @@ MatrixXd estimated_errors(const Fields& fields, const States& states, const Matr
   return error;
 }
 
-// What errors by the mesh take of the loaded nodes at k times.
+// The nodes of a body on which forces act, for the estimated error by the mesh at k times.
 struct Loaded {
   std::vector<int> node;   // mesh numbers
   SurfacePatches patches;  // around each; of means none
@@ -159,9 +156,9 @@ std::vector<Scalar> scalars(const Fields& body, const States& states, const Matr
   if (const auto& touched = states.front().touched)
     all.push_back({"error_of_von_mises_by_mesh [Pa]", estimated_mesh_errors(body, *touched, U, found)});
   if (states.front().q_error.size() > 0)
-    all.push_back({"error_of_von_mises_by_steps [Pa]",
-                   von_mises(body.stresses(body.displacements(
-                       states, [](const FieldState& s) { return s.q_error; }, no_displacement)))});
+    all.push_back(
+        {"error_of_von_mises_by_steps [Pa]", von_mises(body.stresses(body.displacements(
+                                                 states, [](const FieldState& s) { return s.q_error; })))});
   return all;
 }
 
@@ -176,9 +173,8 @@ void write_fields(const std::vector<std::string>& paths, const std::string& body
                   const io::BodySource& source, const States& states, const FiniteElements& finite_elements) {
   require(paths.size() == states.size() && !states.empty(), "fields need a path for each state");
   const Fields body{body_file, source, finite_elements};
-  const MatrixXd U = body.displacements(
-      states, [](const FieldState& s) { return s.q; },
-      [](const FieldState& s) -> const VectorXd& { return s.u_static; });
+  MatrixXd U = body.displacements(states, [](const FieldState& s) { return s.q; });
+  for (std::size_t i = 0; i < states.size(); ++i) add_static(states[i].u_static, i, U);
   MatrixXd stress = body.stresses(U);
   subtract_relaxed(body, states, stress);
   const std::vector<Scalar> all = scalars(body, states, U, stress);
