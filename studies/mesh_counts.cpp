@@ -1,7 +1,7 @@
-// Which counts of a gear's mesh its figures depend on: a pair is swept over a pitch with each count doubled
-// in turn, and with all of them.
+// The study tells on which counts of cells stresses and transmission error of a gear pair depend. It sweeps
+// the pair over a pitch with each count doubled in turn, and with all of them but those behind the teeth.
 //
-//   study_mesh_counts README 300 FOLDER      (README's pair, or helical, C14; N m; body files go there)
+//   mesh_counts README 300 FOLDER      (README's pair, or helical, C14; N m; body files go there)
 //
 // Prints, for each mesh, its nodes, transmission error (mean and peak to peak), KHbeta, the largest pressure
 // by H. Hertz and the largest tension at both roots.

@@ -13,18 +13,13 @@
 namespace elastogear::drive {
 namespace {
 
-using dynamics::Axis, dynamics::BodySetup;
+using dynamics::BodySetup;
 using Eigen::Vector3d;
 
-const std::vector<Bearing>& bearings_of(const Operation& operation, std::size_t member) {
-  static const std::vector<Bearing> none;
-  return member < operation.bearings.size() ? operation.bearings[member] : none;
-}
-
-// What a gear does in one run.
+// A gear in one run: whether it is held, what drives it and how fast it begins.
 struct Part {
   const Member& member;
-  const std::vector<Bearing>& bearings;
+  std::vector<Bearing> bearings;
   bool held = false;   // at rest
   bool led = false;    // from position to position
   double torque = 0;   // N m, about its axis
@@ -54,10 +49,11 @@ void require_held(const Member& member, const std::vector<Bearing>& bearings) {
     axial += b.axial;
     tilt += b.tilt + std::abs(b.at - bearings[0].at);
   }
-  require(axial > 0, "bearings of ", member.name, ": none of them holds the gear along its axis");
+  require(axial > 0, "bearings of ", member.name,
+          ": none of them holds the gear along its axis; give one an axial stiffness");
   require(tilt > 0, "bearings of ", member.name,
-          ": they do not keep the gear from tilting; let them stand at different places, or one of them have "
-          "a stiffness against tilting");
+          ": they do not keep the gear from tilting; give them different places (at), or one a stiffness "
+          "against tilting (tilt)");
 }
 
 Eigen::Matrix3d turned(const Member& member) {
@@ -123,6 +119,10 @@ double rate(const Drive& drive, const std::string& name) {
 
 }  // namespace
 
+std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member) {
+  return member < operation.bearings.size() ? operation.bearings[member] : std::vector<Bearing>{};
+}
+
 DriveSystem drive_system(const Drive& drive, const Operation& operation) {
   DriveSystem system;
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
@@ -181,7 +181,7 @@ dynamics::SlowMotion slow_motion(const Drive& drive, const Operation& operation,
                               std::move(system.markers)};
   for (const BodySetup& body : motion.bodies) motion.rate.push_back(rate(drive, body.name));
   const std::size_t last = drive.members.size() - 1;
-  const std::vector<Bearing>& led = bearings_of(operation, last);
+  const std::vector<Bearing> led = bearings_of(operation, last);
   for (const dynamics::BushingSetup& bushing : motion.markers.bushings) {
     const bool turns =
         std::any_of(led.begin(), led.end(), [&](const Bearing& b) { return b.name == bushing.name; });

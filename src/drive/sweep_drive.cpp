@@ -20,10 +20,9 @@ dynamics::SlowMotion motion_of(const Drive& drive, const Operation& operation,
           drive.members.size(), " members");
   DriveSystem system = drive_system(drive, operation);
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
-    static const std::vector<Bearing> none;
-    const std::vector<Bearing>& bearings = i < operation.bearings.size() ? operation.bearings[i] : none;
     const Member& member = drive.members[i];
-    known[model::identity_key(member.name)] = take_body(member, body_files[i], bearings, system.bodies[i]);
+    known[model::identity_key(member.name)] =
+        take_body(member, body_files[i], bearings_of(operation, i), system.bodies[i]);
   }
   dynamics::SlowMotion motion = slow_motion(drive, operation, std::move(system));
   motion.prepared = dynamics::prepare(motion);

@@ -29,6 +29,9 @@ struct Operation {
   std::vector<std::vector<Bearing>> bearings = {};  ///< of each member; none: its axis stands fast
 };
 
+/// The bearings of a member; none: its axis stands fast.
+std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member);
+
 /// Bodies stand in the members' order and lack what only a reduced body knows: see take_body().
 struct DriveSystem {
   std::vector<dynamics::BodySetup> bodies = {};

@@ -1,5 +1,5 @@
 #pragma once
-// What recovery asks of the finite elements of a whole body.
+// Stresses and static responses of unreduced bodies by their finite elements, for recovery.
 
 #include "elastogear/recovery/finite_elements.h"
 

@@ -69,7 +69,8 @@ void require_pair(const CoarserMesh& mesh, const std::string& group) {
   require(found, mesh.file, ": has no figures of ", group.substr(0, group.size() - 1));
 }
 
-// Of each of a figure's values; empty where a coarser mesh has not the figure, or another number of them.
+// Estimated errors by the mesh of the values of one figure; empty where a coarser mesh has not the figure, or
+// has another number of values.
 std::vector<double> errors_of(const std::vector<CoarserMesh>& coarser, const std::string& path,
                               const std::vector<double>& finest, double refinement, double order) {
   std::vector<std::vector<double>> value(finest.size());
