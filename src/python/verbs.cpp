@@ -53,10 +53,11 @@ std::vector<std::array<std::string, 4>> option_table(const std::string& name) {
 using FactList = std::vector<std::tuple<std::string, std::variant<double, std::string>, std::string>>;
 using FactsByName = std::map<std::string, FactList>;
 
-FactList fact_list(const app::Facts& facts) {
+FactList fact_list(const drive::Facts& facts) {
   FactList list;
-  for (const app::Fact& fact : facts) {
-    for (const app::Figure& figure : fact.figures) list.emplace_back(figure.name, figure.value, figure.unit);
+  for (const drive::Fact& fact : facts) {
+    for (const drive::Figure& figure : fact.figures)
+      list.emplace_back(figure.name, figure.value, figure.unit);
     if (fact.figures.empty()) list.emplace_back(fact.name, fact.text, "");
   }
   return list;
@@ -74,9 +75,9 @@ FactsByName drive_facts(const Given& given) {
   const app::Drive drive = app::read_drive(options);
   FactsByName facts;
   for (std::size_t i = 0; i < drive.members.size(); ++i)
-    facts[drive.members[i].name] = fact_list(drive.facts[i]);
+    facts[drive.members[i].name] = fact_list(drive.facts.members[i]);
   for (std::size_t i = 0; i < drive.pairs.size(); ++i)
-    facts[pair_name(drive, drive.pairs[i])] = fact_list(drive.pair_facts[i]);
+    facts[pair_name(drive, drive.pairs[i])] = fact_list(drive.facts.pairs[i]);
   return facts;
 }
 

@@ -1,6 +1,5 @@
 #include "app/gear/cylindrical_options.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -219,55 +218,6 @@ CylindricalDrive cylindrical_design(const Options& options) {
   return d;
 }
 
-Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
-  const gear::Toothing& t = g.gear[i];
-  const gear::Blank& b = g.blank[i];
-  Facts facts = {
-      {"teeth",
-       std::to_string(t.z) + (t.internal      ? ", internal"
-                              : d.rack.pr > 0 ? ", undercut by protuberance"
-                              : t.undercut    ? ", undercut"
-                                              : ""),
-       {{"teeth", static_cast<double>(t.z)}}},
-      {"profile shift", with_unit(d.gears[i].x, ""), {{"profile shift", d.gears[i].x}}},
-      lengths("pitch / tip / root diameter",
-              {{"pitch diameter", 2 * t.r}, {"tip diameter", 2 * t.r_a}, {"root diameter", 2 * t.r_f}}),
-      lengths("base / form diameter", {{"base diameter", 2 * t.r_b}, {"form diameter", 2 * t.r_form}}),
-      lengths("tip thickness", {{"tip thickness", gear::normal_thickness(t, t.r_a)}}),
-      lengths(t.internal ? "face width / outer diameter" : "face width / bore",
-              {{"face width", b.face_width}, {t.internal ? "outer diameter" : "bore", b.end_diameter()}})};
-  if (t.internal) {
-    const double rho = g.cutter[i].rho_a0 * d.m_n;
-    facts.push_back(
-        {"cutter",
-         std::to_string(g.cutter[i].z_0) + " teeth, tip radius " + in_mm(rho),
-         {{"cutter teeth", static_cast<double>(g.cutter[i].z_0)}, {"cutter tip radius", rho, "m"}}});
-  }
-  return facts;
-}
-
-// The largest sliding is where contact begins or ends, over the speed of the pitch circle.
-Facts pair_facts(const CylindricalDrive& d, const CylindricalGeometry& g, std::size_t i) {
-  const gear::PairGeometry& p = g.pair[i];
-  const gear::Toothing &t_1 = g.gear[d.pairs[i].first], &t_2 = g.gear[d.pairs[i].second];
-  const double pitch_point = t_1.r_b * std::tan(p.alpha_wt), both = t_1.sign() * t_2.sign();
-  const double farthest = std::max(std::abs(pitch_point - p.path[0]), std::abs(p.path[1] - pitch_point));
-  const double sliding = farthest * std::abs(1 / t_1.r_b + both / t_2.r_b) * std::cos(p.alpha_wt);
-  const double ratio = static_cast<double>(t_2.z) / t_1.z;
-  return {lengths("centre distance", {{"centre distance", p.a}}),
-          {"ratio", with_unit(ratio, both > 0 ? "" : "in one sense"), {{"ratio", ratio}}},
-          {"working pressure angle",
-           with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse"),
-           {{"working pressure angle", p.alpha_wt, "rad"}}},
-          lengths("normal base pitch", {{"normal base pitch", g.p_bn}}),
-          {"contact ratio",
-           with_unit(p.epsilon_alpha, "") + "transverse, " + with_unit(p.epsilon_beta, "") + "overlap",
-           {{"contact ratio", p.epsilon_alpha}, {"overlap ratio", p.epsilon_beta}}},
-          lengths("normal backlash", {{"normal backlash", p.j_n}}),
-          lengths("tip clearances", {{"first tip clearance", p.c[0]}, {"second tip clearance", p.c[1]}}),
-          {"largest sliding", with_unit(sliding, "of the pitch-line speed"), {{"largest sliding", sliding}}}};
-}
-
 mesh::Mesh read_own_mesh(const Options& options, const std::string& file, const gear::OwnGear& gear,
                          mesh::ReadReport& report) {
   mesh::Mesh mesh = mesh::read_mesh(file, unit_in_m(options, gear.name), &report);
@@ -305,14 +255,12 @@ OptionTable cylindrical_table() { return table_of(kRackRows, kGearRows); }
 Drive cylindrical_drive(const Options& options, const drive::Start& start) {
   const CylindricalDrive d = cylindrical_design(options);
   const CylindricalGeometry g = gear::derive(d);
-  Drive drive{drive::cylindrical_drive(d, g, start)};
+  Drive drive{drive::cylindrical_drive(d, g, start), drive::facts(d, g)};
   for (std::size_t i = 0; i < d.gears.size(); ++i) {
     DriveMember& member = drive.members[i];
     if (const std::string file = own_mesh(options, member.name); !file.empty())
       take_own_mesh(options, file, g.blank[i].end_diameter(), member);
-    drive.facts.push_back(member_facts(d, g, static_cast<int>(i)));
   }
-  for (std::size_t i = 0; i < d.pairs.size(); ++i) drive.pair_facts.push_back(pair_facts(d, g, i));
   return drive;
 }
 

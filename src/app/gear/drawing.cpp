@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "app/gear/facts.h"
 #include "app/gear/section.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -95,13 +96,13 @@ void write_view(std::ostream& out, const View& v, const Vector2d& origin) {
 double write_facts(std::ostream& out, const Drive& drive, const Vector2d& at, double width, double size) {
   struct Column {
     std::string title, colour;
-    const Facts* facts;
+    const drive::Facts* facts;
   };
   std::vector<Column> columns;
   for (std::size_t i = 0; i < drive.members.size(); ++i)
-    columns.push_back({drive.members[i].name, kFill[i % std::size(kFill)], &drive.facts[i]});
+    columns.push_back({drive.members[i].name, kFill[i % std::size(kFill)], &drive.facts.members[i]});
   for (std::size_t i = 0; i < drive.pairs.size(); ++i)
-    columns.push_back({pair_name(drive, drive.pairs[i]), "#fff", &drive.pair_facts[i]});
+    columns.push_back({pair_name(drive, drive.pairs[i]), "#fff", &drive.facts.pairs[i]});
   const double step = width / static_cast<double>(columns.size());
   double lowest = at[1];
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -114,10 +115,10 @@ double write_facts(std::ostream& out, const Drive& drive, const Vector2d& at, do
     out << "<rect x='" << number(x) << "' y='" << number(y - 0.8 * size) << "' width='" << number(0.8 * size)
         << "' height='" << number(0.8 * size) << "' fill='" << columns[i].colour << "'/>\n";
     text(x + 1.2 * size, columns[i].title, "font-weight='bold'");
-    for (const Fact& fact : *columns[i].facts) {
+    for (const drive::Fact& fact : *columns[i].facts) {
       y += 1.4 * size;
       text(x, fact.name, "fill='#555'");
-      text(x + kName * size, fact.text, "");
+      text(x + kName * size, app::text(fact), "");
     }
     lowest = std::max(lowest, y);
   }

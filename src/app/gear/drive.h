@@ -2,10 +2,10 @@
 // A drive file: several gears, their assembly and load. Every verb reads it and takes from it what it needs,
 // so that meshes, bodies and places belong together.
 
-#include <vector>
+#include <cmath>
 
-#include "app/gear/facts.h"
 #include "elastogear/drive/drive.h"
+#include "elastogear/drive/facts.h"
 
 namespace elastogear::app {
 
@@ -15,8 +15,8 @@ using DrivePair = drive::Pair;
 
 /// A drive with the numbers of its design.
 struct Drive : drive::Drive {
-  std::vector<Facts> facts = {};       ///< of each member
-  std::vector<Facts> pair_facts = {};  ///< of each pair
+  drive::DriveFacts facts = {};
+  double locking_friction = INFINITY;  ///< from which on the second gear cannot drive the first
 };
 
 }  // namespace elastogear::app

@@ -7,6 +7,7 @@
 #include "app/gear/bearing_options.h"
 #include "app/gear/cylindrical_options.h"
 #include "app/gear/design_options.h"
+#include "app/gear/facts.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
 #include "app/gear/worm_options.h"
@@ -213,11 +214,11 @@ std::string drawing_file(const Options& options) {
 void print_drive(const Drive& drive) {
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
     print_item(drive.members[i].name, "");
-    for (const Fact& fact : drive.facts[i]) print_item("  " + fact.name, fact.text);
+    for (const drive::Fact& fact : drive.facts.members[i]) print_item("  " + fact.name, text(fact));
   }
   for (std::size_t i = 0; i < drive.pairs.size(); ++i) {
     print_item(pair_name(drive, drive.pairs[i]), "");
-    for (const Fact& fact : drive.pair_facts[i]) print_item("  " + fact.name, fact.text);
+    for (const drive::Fact& fact : drive.facts.pairs[i]) print_item("  " + fact.name, text(fact));
   }
 }
 

@@ -17,7 +17,6 @@ using std::numbers::pi;
 
 constexpr double kPressureAngle = 20;  // deg
 constexpr int kMostStarts = 6;
-constexpr const char* kLocking = "friction that locks the worm";
 
 struct WormChoices {
   int starts = 1, teeth = 0;
@@ -121,62 +120,6 @@ Design worm_design(const Options& options) {
   return d;
 }
 
-Facts facts(const gear::Toothing& t, double width, double bore) {
-  Facts all = {
-      {"teeth", std::to_string(t.z), {{"teeth", static_cast<double>(t.z)}}},
-      lengths("pitch / tip / root diameter",
-              {{"pitch diameter", 2 * t.r}, {"tip diameter", 2 * t.r_a}, {"root diameter", 2 * t.r_f}})};
-  if (t.r_b > 0)
-    all.push_back(
-        lengths("base / form diameter", {{"base diameter", 2 * t.r_b}, {"form diameter", 2 * t.r_form}}));
-  else
-    all.push_back(lengths("form diameter", {{"form diameter", 2 * t.r_form}}));
-  all.push_back(lengths("width / bore", {{"width", width}, {"bore", bore}}));
-  return all;
-}
-
-Facts worm_facts(const Design& d, const Geometry& g) {
-  constexpr const char* kForms[] = {"ZA", "ZN", "ZI", "ZK"};
-  Facts all = facts(g.worm, d.thread_length, d.worm_bore);
-  const std::string hand = d.hand == gear::Hand::left ? ", left-handed" : ", right-handed";
-  all.push_back({"flank form", kForms[static_cast<int>(d.flank)] + hand});
-  if (g.cutter_diameter > 0)
-    all.push_back(lengths("cutter diameter", {{"cutter diameter", g.cutter_diameter}}));
-  return all;
-}
-
-Facts wheel_facts(const Design& d, const Geometry& g) {
-  Facts all = facts(g.wheel, d.face_width, d.wheel_bore);
-  if (g.throat_radius > 0)
-    all.push_back(lengths("throat radius / outside diameter",
-                          {{"throat radius", g.throat_radius}, {"outside diameter", g.outside_diameter}}));
-  if (d.wheel_form == gear::WheelForm::helical) return all;
-  all.push_back(lengths("hob pitch / tip diameter",
-                        {{"hob pitch diameter", 2 * g.worm.r + d.hob_oversize},
-                         {"hob tip diameter", 2 * (g.worm.r + d.dedendum) + d.hob_oversize}}));
-  all.push_back(
-      {"hob swivel", with_unit(g.hob_swivel * 180 / pi, "deg"), {{"hob swivel", g.hob_swivel, "rad"}}});
-  return all;
-}
-
-Facts pair_facts(const Design& d, const Geometry& g) {
-  const double locking = std::tan(g.gamma_w) * std::cos(g.alpha_w);  // tan(gamma) = mu / cos(alpha_n)
-  const double reference = 2 * (g.worm.r - g.shift), quotient = reference * pi / g.p_x;
-  return {lengths("centre distance", {{"centre distance", d.a}}),
-          {"ratio", with_unit(g.ratio, ""), {{"ratio", g.ratio}}},
-          {"lead angle", with_unit(g.gamma * 180 / pi, "deg"), {{"lead angle", g.gamma, "rad"}}},
-          {"diameter quotient", with_unit(quotient, ""), {{"diameter quotient", quotient}}},
-          lengths("reference diameter of the worm / axial module",
-                  {{"reference diameter", reference}, {"axial module", g.p_x / pi}}),
-          {"profile shift of the wheel", with_unit(d.x2, ""), {{"profile shift", d.x2}}},
-          {kLocking, with_unit(locking, "and more"), {{kLocking, locking}}},
-          lengths("normal base pitch", {{"normal base pitch", g.p_bn}}),
-          {"contact ratio", with_unit(g.epsilon, ""), {{"contact ratio", g.epsilon}}},
-          lengths("normal backlash", {{"normal backlash", g.j_n}}),
-          lengths("tip clearances", {{"first tip clearance", d.a - g.worm.r_a - g.wheel.r_f},
-                                     {"second tip clearance", d.a - g.wheel.r_a - g.worm.r_f}})};
-}
-
 }  // namespace
 
 OptionTable worm_table() { return table_of(kWormRows); }
@@ -186,18 +129,16 @@ void refuse_locked(const Options& options, const Drive& drive) {
       options.choice("side", {"drive", "coast"}) == 0)
     return;
   const double friction = options.number("contact_friction");
-  for (const Fact& fact : drive.pair_facts.front())
-    require(fact.name != kLocking || friction < fact.figures[0].value,
-            "the worm locks itself: with the friction ", friction,
-            " (option -contact_friction) the wheel cannot drive it (side: coast), whatever its torque; ",
-            "it can below ", fact.name == kLocking ? fact.figures[0].value : 0,
-            ", tan(lead angle) cos(pressure angle)");
+  require(friction < drive.locking_friction, "the worm locks itself: with the friction ", friction,
+          " (option -contact_friction) the wheel cannot drive it (side: coast), whatever its torque; it can "
+          "below ",
+          drive.locking_friction, ", tan(lead angle) cos(pressure angle)");
 }
 
 Drive worm_drive(const Options& options, const drive::Start& start) {
   const Design d = worm_design(options);
   const Geometry g = gear::derive(d);
-  return {drive::worm_drive(d, g, start), {worm_facts(d, g), wheel_facts(d, g)}, {pair_facts(d, g)}};
+  return {drive::worm_drive(d, g, start), drive::facts(d, g), drive::locking_friction(g)};
 }
 
 }  // namespace elastogear::app
