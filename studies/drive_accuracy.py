@@ -111,7 +111,7 @@ def run(options, key, folder, *more):
     start, stamp = time.monotonic(), os.path.join(folder, "seconds.txt")
     if not os.path.exists(stamp):
         with open(os.path.join(folder, "log.txt"), "w", encoding="utf-8") as log:
-            subprocess.run([os.path.abspath(options.elastogear), "run", "drive.yaml", *more], cwd=folder, stdout=log, stderr=log, check=True)
+            subprocess.run([os.path.abspath(options.elastogear), "run", "drive.yaml", "-report", "none", *more], cwd=folder, stdout=log, stderr=log, check=True)
         with open(stamp, "w", encoding="utf-8") as file:
             file.write(f"{time.monotonic() - start:.0f}")
     with open(os.path.join(folder, "drive_evaluation.json"), encoding="utf-8") as file:

@@ -1,5 +1,5 @@
 // The study tells on which counts of cells stresses and transmission error of a gear pair depend. It sweeps
-// the pair over a pitch with each count doubled in turn, and with all of them but those behind the teeth.
+// the pair over a pitch with each count doubled in turn, and with all of them as `refinement: 2` has them.
 //
 //   mesh_counts README 300 FOLDER      (README's pair, or helical, C14; N m; body files go there)
 //
@@ -62,12 +62,7 @@ const std::vector<std::pair<const char*, Change>> kChanges = {
     {"rim", [](gear::WheelCounts& n) { n.rim *= 2, n.growth = gear::refined_growth(n.growth, 2); }},
     {"ring", [](gear::WheelCounts& n) { n.ring *= 2; }},
     {"web_layers", [](gear::WheelCounts& n) { n.web_layers *= 2; }},
-    {"all but ring",
-     [](gear::WheelCounts& n) {
-       const int ring = n.ring;
-       n = gear::refined(n, 2);
-       n.ring = ring;
-     }},
+    {"refinement 2", [](gear::WheelCounts& n) { n = gear::refined(n, 2); }},
 };
 
 void solve(const gear::CylindricalDrive& of, Change change, double torque, const std::string& folder) {

@@ -9,6 +9,27 @@ namespace elastogear::drive {
 
 using std::numbers::pi;
 
+namespace {
+
+// Flanks touch at points. A cell gives the force of a point to all its nodes, also to those beside a root,
+// and the stress at the root below a point falls off along the face. Size tiny, which runs begin with, is
+// finer here than for frequencies.
+bool is_coarse(const MeshDensity& by) { return by.size == gear::Size::tiny && by.order == 2; }
+
+gear::WormCounts worm_counts(const MeshDensity& by, int z1) {
+  gear::WormCounts n = gear::worm_counts(by.size, z1, by.order);
+  if (is_coarse(by)) n.flank = 3;
+  return gear::refined(n, z1, by.refinement);
+}
+
+gear::WheelCounts wheel_counts(const MeshDensity& by) {
+  gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
+  if (is_coarse(by)) n.web_layers = 4, n.face_layers = 2, n.fillet = 3;
+  return gear::refined(n, by.refinement);
+}
+
+}  // namespace
+
 // Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
 // half the backlash; a driving worm pushes the wheel from behind. A left-handed wheel turns the other way.
 Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, const Start& start) {
@@ -21,8 +42,7 @@ Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, con
   worm.name = "worm";
   worm.toothing = g.worm;
   worm.mesh = [design](const MeshDensity& by, mesh::ReadReport&) {
-    const gear::WormCounts n = gear::worm_counts(by.size, design.z1, by.order);
-    return gear::worm_mesh(design, gear::refined(n, design.z1, by.refinement));
+    return gear::worm_mesh(design, worm_counts(by, design.z1));
   };
   worm.is_worm = true;
   worm.held = "seats";
@@ -33,8 +53,7 @@ Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, con
   wheel.name = "wheel";
   wheel.toothing = g.wheel;
   wheel.mesh = [design](const MeshDensity& by, mesh::ReadReport&) {
-    const gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
-    return gear::wheel_mesh(design, gear::refined(n, by.refinement));
+    return gear::wheel_mesh(design, wheel_counts(by));
   };
   wheel.held = "bore";
   wheel.angle = hand * (turned / g.ratio - sense * closing);

@@ -31,8 +31,8 @@ struct WheelCounts {
 WheelCounts wheel_counts(Size size, int order = 1);
 
 /// The counts times a number > 0, as far as they are whole, with rows that grow as before over the same
-/// depth. Rows of ring, web and hub, behind the teeth, are its square root times as many: they change
-/// stresses at the roots by a hundredth of what rows of the tooth do (docs/validation/gears.md).
+/// depth. Layers, and rows of ring, web and hub, are its square root times as many: those of the counts of
+/// 20-node hexahedra change stresses at the roots less than rows of the tooth do (docs/validation/gears.md).
 WheelCounts refined(WheelCounts counts, double times);
 
 /// Mesh in the wheel frame. Face sets left, right, flanks, `tooth_<ii>_left`, `tooth_<ii>_right`; node sets

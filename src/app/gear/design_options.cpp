@@ -17,8 +17,8 @@ const Rows<Design> kDesignRows = {
     {"element_order", "-", "2",
      "order of the hexahedra: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact flanks and fillets)"},
     {"refinement", "-", "1",
-     "counts of the size are so many times as large, also 1.5 times; of rows behind the teeth its square "
-     "root"},
+     "counts of the size are so many times as large, also 1.5 times; layers, and rows behind the teeth, its "
+     "square root"},
     {"mesh", "-", "", "mesh file to write, Gmsh 4.1 .msh or Abaqus .inp"},
     {"z1", &Design::z1, "-", "starts of the worm", kPositive},
     {"z2", &Design::z2, "-", "teeth of the wheel", kPositive},

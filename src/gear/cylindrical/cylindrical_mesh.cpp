@@ -26,13 +26,16 @@ Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, i
 
 WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size,
                                int order) {
-  constexpr double kWidth = 8;      // modules, which the layers of a size are for
+  constexpr double kWidth = 8;         // modules, which the layers of a size are for
+  constexpr int kLeastLayers[]{2, 4};  // of cells of 8 and of 20 nodes
   constexpr int kLeastColumns = 2;  // of half a space: cells of the root land as long as those of the fillet
   WheelCounts n = wheel_counts(size, order);
   n.web_growth = 0;
   const Blank& b = g.blank[i];
-  const double total = (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
-  const int layers = std::max(2, static_cast<int>(std::lround(total)));
+  // Lines of contact of helical gears cross the layers.
+  const double more = order == 2 && size == Size::tiny && d.beta != 0 ? 1.5 : 1;
+  const double total = more * (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
+  const int layers = std::max(kLeastLayers[order - 1], static_cast<int>(std::lround(total)));
   const double column = std::numbers::pi * g.gear[i].r / (g.gear[i].z * (n.space + 0.5 * n.tooth));
   const auto rows = [&](double outer, double inner) {
     constexpr double kSlender = 3;  // columns that a row may be high

@@ -105,9 +105,9 @@ WheelCounts refined(WheelCounts n, double times) {
   if (times == 1) return n;
   const double behind = std::sqrt(times);
   n.tooth = 2 * refined(n.tooth / 2, times);
-  for (int* count : {&n.space, &n.flank, &n.fillet, &n.rim, &n.web_layers, &n.face_layers, &n.hub_layers})
-    *count = refined(*count, times);
-  for (int* count : {&n.ring, &n.web, &n.hub}) *count = refined(*count, behind);
+  for (int* count : {&n.space, &n.flank, &n.fillet, &n.rim}) *count = refined(*count, times);
+  for (int* count : {&n.ring, &n.web, &n.hub, &n.web_layers, &n.face_layers, &n.hub_layers})
+    *count = refined(*count, behind);
   for (double* growth : {&n.growth, &n.tooth_growth}) *growth = refined_growth(*growth, times);
   n.web_growth = refined_growth(n.web_growth, behind);
   return n;
