@@ -58,6 +58,10 @@ double mesh_error(const std::vector<double>& value, const std::vector<double>& r
                   of_two_meshes(before, coarse, order) / std::pow(fine, order));
 }
 
+double least_refinement(double error, double error_wanted, double refinement, double order) {
+  return refinement * std::pow(kObserved / kAssumed * error / error_wanted, 1 / order);
+}
+
 // Eq. (10.18)
 void raise_to_median(const std::vector<double>& figure, std::vector<double>& error) {
   require(figure.size() == error.size(), "there must be an error for each figure");

@@ -83,6 +83,9 @@ def accurate():
     # A finer mesh where that is asked; the coarser ones are there.
     finer = run("accurate.yaml", "-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))
     assert "1.5/accurate_evaluation.h5" in run("accurate.yaml", "-accuracy", "60 %") and "2 times" in finer, finer
+    # Another load is solved on all meshes whose bodies are there.
+    said = run("accurate.yaml", "-torque", "45 N m")
+    assert re.findall(r"mesh +counts ([\d.]+) times", said) == ["1", "1.5", "2"] and said.count("the bodies are there") == 3, said
     # Bodies of static responses alone are not for motions.
     refused = subprocess.run([ELASTOGEAR, "simulate", "accurate.yaml", "-analysis", "dynamic", "-ts_max_time", "1e-6"],
                              capture_output=True, text=True, check=False)

@@ -54,6 +54,13 @@ TEST(GridConvergence, no_figure_is_taken_for_better_than_half_of_them) {
   EXPECT_EQ(error, (std::vector<double>{12, 2, 1, 0}));
 }
 
+// The next mesh shows the order, and has the error that it was chosen for.
+TEST(GridConvergence, the_least_refinement_has_the_error_that_is_wanted) {
+  const double error = mesh_error(values(2, {1, 1.5}), {1, 1.5}), r = least_refinement(error, 1.2, 1.5);
+  EXPECT_GT(r, 1.5);
+  EXPECT_NEAR(mesh_error(values(2, {1, 1.5, r}), {1, 1.5, r}), 1.2, 1e-6);
+}
+
 TEST(GridConvergence, of_two_figures_the_mean_share_counts) {
   std::vector<double> error = {12, 2};
   raise_to_median({400, 200}, error);  // 3 and 1 %

@@ -11,6 +11,11 @@ namespace elastogear::evaluation {
 /// theory; 2 is that of strains in 20-node hexahedra. Throws Error unless refinements ascend.
 double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement, double order = 2);
 
+/// The least refinement at which a figure with this error can be found to have a smaller one, of which an
+/// order is shown: the error is one of two meshes, Eq. (10.15), and falls to that of Eq. (10.16). error,
+/// error_wanted: > 0, in the same units; refinement: of the finer mesh.
+double least_refinement(double error, double error_wanted, double refinement, double order = 2);
+
 /// Raises each error to the median share, Eq. (10.18), of figures on the same meshes: the change of one
 /// figure between two meshes may pass through zero, those of half of them do not. figure, error: of equal
 /// length and in the same units; figures of zero have no share and keep their error. Throws Error for other

@@ -106,6 +106,7 @@ RunOnMesh on_mesh(RunOnMesh of, const Drive& drive, double refinement, const std
   of.folder = folder;
   for (Options* options : {&of.reduce, &of.simulate, &of.evaluate}) {
     options->set("refinement", text_of(refinement));
+    for (const char* mesh : {"size", "element_order"}) options->set(mesh, options->text(mesh));
     if (folder.empty()) continue;
     for (const DriveMember& member : drive.members)
       options->set(member.name + "_file", in_folder(folder, body_file(of.reduce, member)));

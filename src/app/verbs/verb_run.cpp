@@ -22,6 +22,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/evaluation/grid_convergence.h"
 
 namespace elastogear::app {
 namespace {
@@ -89,24 +90,46 @@ double number_on_rank_0(const std::function<double()>& number) {
   return value;
 }
 
-// Bytes, the most this process has held so far.
-double held_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+// What rank 0 needs for one more mesh, and the memory that it has: bytes, and seconds.
+struct Cost {
+  double memory = 0, seconds = 0, machine = 0;
+};
+
+bool is_affordable(const Cost& cost) { return cost.seconds <= kLongest && cost.memory <= cost.machine; }
+
+// seconds: that a mesh took. Collective.
+Cost cost_of_finer(int mesh, int finer, double seconds) {
+  const double times = std::pow(kRefinements[finer] / kRefinements[mesh], kCost);
+  const double held = number_on_rank_0([] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  });
+  const double machine = number_on_rank_0([] {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  });
+  return {times * held, times * seconds, machine};
+}
+
+// The next finer mesh. Those that would miss the accuracy asked are passed over as far as one beyond them is
+// affordable. seconds: that this mesh took.
+int finer_mesh(int mesh, double error, double accuracy, double seconds) {
+  const double least = evaluation::least_refinement(error, accuracy, kRefinements[mesh]);
+  int finer = mesh + 1;
+  while (finer + 1 < kMeshes && kRefinements[finer] < least &&
+         is_affordable(cost_of_finer(mesh, finer + 1, seconds)))
+    ++finer;
+  return finer;
 }
 
 // Says what the next finer mesh would take if time or memory do not suffice for it; empty if they do.
 std::string obstacle_to_finer(int mesh, double seconds) {
-  std::ostringstream finer;
   if (mesh + 1 == kMeshes) return "there is no finer mesh on offer";
-  const double times = std::pow(kRefinements[mesh + 1] / kRefinements[mesh], kCost);
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  const double wanted = times * held_memory();
-  if (times * seconds <= kLongest && wanted <= memory) return "";
-  finer << "the next mesh would take about " << duration(times * seconds) << " and "
-        << short_number(1e-9 * wanted) << " GB of memory; -refinement " << kRefinements[mesh + 1]
+  const Cost cost = cost_of_finer(mesh, mesh + 1, seconds);
+  if (is_affordable(cost)) return "";
+  std::ostringstream finer;
+  finer << "the next mesh would take about " << duration(cost.seconds) << " and "
+        << short_number(1e-9 * cost.memory) << " GB of memory; -refinement " << kRefinements[mesh + 1]
         << " makes it";
   return finer.str();
 }
@@ -126,34 +149,56 @@ bool ends_here(int mesh, double error, double accuracy, double seconds) {
   return reached || !obstacle.empty();
 }
 
+double error_in(const std::string& evaluation) {
+  return number_on_rank_0([&] { return root_error(evaluation); });
+}
+
+// Of a mesh but the last, whose files may be in a folder of their own.
+RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
+  std::ostringstream folder;
+  folder << folder_of_meshes(of.reduce) << "/" << kRefinements[mesh];
+  return on_mesh(of, drive, kRefinements[mesh], folder.str());
+}
+
+// The next mesh after one whose evaluation is there: a finer one of which something is there, too, if there
+// is any. Size tiny alone has no estimate of its error. seconds: that this mesh took; infinite where not all
+// of it was made now, so that no mesh is passed over.
+int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy, double seconds) {
+  for (int finer = mesh + 1; finer < kMeshes; ++finer)
+    for (const RunOnMesh& there :
+         {on_mesh_apart(of, drive, finer), on_mesh(of, drive, kRefinements[finer], "")})
+      if (has_bodies(there, drive) || has_evaluation(there)) return finer;
+  if (mesh == 0) return 1;
+  const double error = error_in(evaluation_file(on_mesh_apart(of, drive, mesh)));
+  return finer_mesh(mesh, error, accuracy, seconds);
+}
+
 // Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
 void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
-  for (int mesh = 0; mesh < kMeshes; ++mesh) {
-    std::ostringstream folder;
-    folder << folder_of_meshes(of.reduce) << "/" << kRefinements[mesh];
-    const RunOnMesh apart = on_mesh(of, drive, kRefinements[mesh], folder.str());
+  for (int mesh = 0; mesh < kMeshes;) {
+    const RunOnMesh apart = on_mesh_apart(of, drive, mesh);
     const bool last = mesh + 1 == kMeshes;
-    print_item("mesh",
-               "counts " + folder.str().substr(folder.str().find('/') + 1) + " times those of size tiny");
+    print_item("mesh", "counts " + with_unit(kRefinements[mesh], "times those of size tiny"));
     if (!last && has_evaluation(apart)) {
-      print_item("evaluate", evaluation_file(apart) + " is there");
       coarser.push_back(evaluation_file(apart));
+      print_item("evaluate", coarser.back() + " is there");
+      mesh = mesh_after(mesh, of, drive, accuracy, INFINITY);
       continue;
     }
     const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
     const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, kRefinements[mesh], "");
+    const bool is_new = !has_bodies(here, drive);
     const auto start = std::chrono::steady_clock::now();
     make(here, drive, coarser);
     const double seconds = number_on_rank_0(
         [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
     if (!is_apart) {
-      const std::string evaluation = evaluation_file(here);
-      const double error = number_on_rank_0([&] { return root_error(evaluation); });
-      if (ends_here(mesh, error, accuracy, seconds)) return;
+      if (ends_here(mesh, error_in(evaluation_file(here)), accuracy, seconds)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
+    mesh = mesh_after(mesh, of, drive, accuracy, is_new ? seconds : INFINITY);
   }
 }
 
