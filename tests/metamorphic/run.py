@@ -45,6 +45,7 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     chains.line_loads_sum_to_the_normal_force: 6,
     chains.an_aligned_pair_is_loaded_evenly: 6,
     chains.two_meshes_differ_by_less_than_their_errors: 4,
+    chains.errors_of_a_run_cover_a_finer_mesh: 2,
     chains.a_result_belongs_to_its_input: 10,
     chains.an_own_mesh_is_that_of_the_data: 3,
     chains.the_life_of_a_finer_mesh_is_above_the_lower_life: 2,
