@@ -92,6 +92,10 @@ def _flat(options: Mapping[str, Any], section: str = "") -> dict[str, Any]:
     return flat
 
 
+def _is_of(key: str, section: str) -> bool:
+    return key == section or key.startswith(section + "_")
+
+
 def _yaml(options: Mapping[str, Any]) -> str:
     """JSON, which YAML reads, one key a line."""
     if not options:
@@ -231,13 +235,17 @@ class Drive(System):
         new = _flat(options)
         gone = [key for key, value in new.items() if value is None]
         other._options = {key: value for key, value in {**self._options, **new}.items()
-                          if not any(key == of or key.startswith(of + "_") for of in gone)}
+                          if not any(_is_of(key, of) and self._gear_of(key) == self._gear_of(of) for of in gone)}
         if name is not None:
             if self._files:
                 raise _library.Error("a name is for a dict; that of a file is its own")
             other._name = name
         other._derive()
         return other
+
+    def _gear_of(self, key: str) -> str:
+        """The gear that an option is of: of wheel and wheel_2 the latter has wheel_2_teeth."""
+        return max((gear for gear in self.facts if _is_of(key, gear)), key=len, default="")
 
     def differences(self, other: "Drive") -> dict[str, dict[str, tuple[Any, Any]]]:
         """Facts that are others than those of another drive, by part and name: both values; None: it has none."""

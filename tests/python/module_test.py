@@ -110,6 +110,10 @@ class Runs(WithDrive):
         self.assertIn("centre distance", differences["pinion:wheel"])
         self.assertEqual(self.drive.differences(wider.replace(wheel=None)), {})
         self.assertEqual(self.drive.differences(other.replace(wheel_profile_shift=0.1)), {})
+        train = eg.Drive({**SPUR, "gears": ["pinion", "wheel", "wheel_2"], "wheel_2": {"teeth": 31}})
+        turned = train.replace(wheel={"profile_shift": 0.2}, wheel_2={"profile_shift": 0.15}).replace(wheel=None)
+        self.assertEqual(turned.facts["wheel"]["profile shift"], 0.1)
+        self.assertEqual(turned.facts["wheel_2"]["profile shift"], 0.15)
         self.assertRegex(str(self.drive), "pinion:wheel\n(.*\n)*  ratio +2.529")
         with self.assertRaisesRegex(eg.Error, "profile_shift"):
             self.drive.replace(pinion={"profile_shift": "large"})
