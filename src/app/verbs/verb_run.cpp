@@ -28,7 +28,7 @@ namespace elastogear::app {
 namespace {
 
 // Times the counts of size tiny. Ratios of at least 1.3 tell changes from scatter (ASME V&V 20).
-constexpr double kRefinements[] = {1, 1.5, 2, 3, 4};
+constexpr double kRefinements[] = {1, 1.5, 2, 3, 4, 6};
 constexpr int kMeshes = static_cast<int>(std::size(kRefinements));
 constexpr double kLongest = 1200;  // s, that one more mesh may take
 constexpr double kCost = 4;        // power of the refinement that time and memory grow with
