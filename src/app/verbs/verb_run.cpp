@@ -90,7 +90,7 @@ double number_on_rank_0(const std::function<double()>& number) {
   return value;
 }
 
-// What rank 0 needs for one more mesh, and the memory that it has: bytes, and seconds.
+// Memory (bytes) and time (s) that one more mesh takes on rank 0, and the memory of its machine.
 struct Cost {
   double memory = 0, seconds = 0, machine = 0;
 };
@@ -153,7 +153,7 @@ double error_in(const std::string& evaluation) {
   return number_on_rank_0([&] { return root_error(evaluation); });
 }
 
-// Of a mesh but the last, whose files may be in a folder of their own.
+// The files of a mesh in its own folder, where those of all meshes but the last one are kept.
 RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
   std::ostringstream folder;
   folder << folder_of_meshes(of.reduce) << "/" << kRefinements[mesh];
