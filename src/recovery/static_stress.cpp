@@ -97,6 +97,8 @@ void StaticStress::add_change(Range times) {
     if (force.isZero(0)) continue;
     const int position = response_.position[b];
     const contact::Spread& to = spread_.of(flexibility.node[static_cast<std::size_t>(position)]);
+    const auto is_loaded = [&](int node) { return model::find_loaded(flexibility, node) >= 0; };
+    if (!std::ranges::all_of(to.node, is_loaded)) continue;
     add(position, -1, force);
     for (std::size_t i = 0; i < to.node.size(); ++i)
       add(model::find_loaded(flexibility, to.node[i]), to.weight[static_cast<Eigen::Index>(i)], force);

@@ -139,6 +139,33 @@ def two_meshes_differ_by_less_than_their_errors(lab):
                 abs(stress[0] - stress[1]) / errors, 1)
 
 
+def loaded_sides(chain):
+    """Of each gear, the sides of its flanks that carry load."""
+    sides = []
+    for of in "ab":
+        name, force = chain.lab.read(f"{chain.name}.h5", *(f"contact/{chain.pair}/groups/{of}/{key}" for key in ("name", "force")))
+        sides.append({group.decode().rsplit("_", 1)[-1] for group, f in zip(name, np.moveaxis(force, 0, 1)) if abs(f).max() > 0})
+    return dict(zip(chain.gears, sides))
+
+
+def loads_on_the_flanks_that_bear_are_enough(lab):
+    """Bodies with static responses to loads on the side that bears, as those that `run` makes, have the figures of whole ones. On bodies of
+    the other side nothing bears, and simulate says so."""
+    keys = drive(lab.random, friction=True)
+    one = Chain(lab, "one", keys, first=True)
+    sides = loaded_sides(one)
+    if any(len(side) != 1 for side in sides.values()):
+        raise Unfit("both flanks bear")
+    side = {gear: side.pop() for gear, side in sides.items()}
+    same_chains(one, Chain(lab, "two", {**keys, **{gear: {**keys[gear], "loaded": side[gear]} for gear in side}}))
+    gear = choice(lab.random, *side)
+    other = {"left": "right", "right": "left"}[side[gear]]
+    three = Chain(lab, "three", {**keys, gear: {**keys[gear], "loaded": other}}, verbs=("reduce",))
+    done = three.verb("simulate")
+    if done.returncode != 1 or "-loaded" not in done.stderr:
+        raise Broken(f"simulate with loads on the other side: exit code {done.returncode}, {done.stderr.strip()[-300:]}")
+
+
 def figures_of_run(lab, name, *options):
     """What `run` makes of a drive, and `wear` of its result, by paths: those of wear are wear/<gear>/<name without unit>."""
     done = lab.call("run", f"{name}.yaml", "-report", "none", *options)

@@ -44,6 +44,7 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     chains.two_ranks_change_nothing: 4,
     chains.line_loads_sum_to_the_normal_force: 6,
     chains.an_aligned_pair_is_loaded_evenly: 6,
+    chains.loads_on_the_flanks_that_bear_are_enough: 4,
     chains.two_meshes_differ_by_less_than_their_errors: 4,
     chains.errors_of_a_run_cover_a_finer_mesh: 2,
     chains.a_result_belongs_to_its_input: 10,

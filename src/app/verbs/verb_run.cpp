@@ -10,12 +10,14 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "app/console/console.h"
 #include "app/console/embedding.h"
 #include "app/evaluate/mesh_errors.h"
 #include "app/options/rows.h"
 #include "app/options/verbs.h"
+#include "app/run/loaded_sides.h"
 #include "app/run/report_page.h"
 #include "app/run/run_on_mesh.h"
 #include "app/setup/drive_on_meshes.h"
@@ -174,7 +176,7 @@ int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accurac
 }
 
 // Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
-void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
+void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
   for (int mesh = 0; mesh < kMeshes;) {
     const RunOnMesh apart = on_mesh_apart(of, drive, mesh);
@@ -183,6 +185,7 @@ void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
     if (!last && has_evaluation(apart)) {
       coarser.push_back(evaluation_file(apart));
       print_item("evaluate", coarser.back() + " is there");
+      if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
       mesh = mesh_after(mesh, of, drive, accuracy, INFINITY);
       continue;
     }
@@ -198,6 +201,7 @@ void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
+    if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
     mesh = mesh_after(mesh, of, drive, accuracy, is_new ? seconds : INFINITY);
   }
 }

@@ -1,9 +1,29 @@
 #include "dynamics/run/snapshot.h"
 
 #include "dynamics/contact/pair_state.h"
+#include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
 namespace {
+
+// Forces on the nodes that carry some. Stations also know those of teeth that are near each other.
+model::ContactForces without_zeros(const NodalForces& forces) {
+  model::ContactForces some;
+  std::vector<Eigen::Index> column;
+  for (Eigen::Index i = 0; i < forces.f_B.cols(); ++i)
+    if (!forces.f_B.col(i).isZero(0)) {
+      column.push_back(i);
+      some.node.push_back(forces.node[static_cast<std::size_t>(i)]);
+    }
+  some.f_B = forces.f_B(Eigen::all, column);
+  return some;
+}
+
+void require_responses(const ContactState& contact, double time) {
+  const std::string& body = contact.stations.obstacle;
+  require(body.empty(), "contact at t = ", time, ": a flank of body '", body,
+          "' touches that it was not reduced for loads on; reduce it anew with -loaded flanks");
+}
 
 model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement,
                             const NodalForces& contact) {
@@ -15,7 +35,7 @@ model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& 
           .q = m.q,
           .q_dot = m.q_dot,
           .q_ddot = m.q_ddot,
-          .contact = {contact.node, contact.f_B}};
+          .contact = without_zeros(contact)};
 }
 
 // Stored energy: docs/theory, Eq. (7.1).
@@ -69,6 +89,7 @@ Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
 
 model::Snapshot snapshot(System& system, const State& x) {
   const ContactState& contact = system.observed_contacts(x);
+  require_responses(contact, x.time);
   model::Snapshot result;
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {

@@ -25,7 +25,6 @@ const Eigen::MatrixXd& ResponseTables::table(const ToothContact::Side& a, const 
   std::unordered_map<int, Eigen::MatrixXf> columns;  // by orbit
   const auto response = [&](int node_a, int node_b) {
     const int i = model::find_loaded(flexibility, node_a), j = model::find_loaded(flexibility, node_b);
-    if (i < 0 || j < 0) return Eigen::Matrix3d(Eigen::Matrix3d::Zero());
     const int orbit = flexibility.surface.orbit[static_cast<std::size_t>(j)];
     const auto [known, unknown] = columns.try_emplace(orbit);
     if (unknown) known->second = model::displacement_columns(flexibility, orbit);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/stations/flank_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/dynamics/station_choice.h"
@@ -32,6 +33,17 @@ contact::SurfaceMotion start(const SystemModel& model, std::size_t b) {
   const body::Motion m = motion(model, b, {0, model.U_0, model.V_0, model.V_0});
   const auto [r_WB, R_WB] = body::placement(model.bodies[b].eq.joint, m.s);
   return {m.q, r_WB, R_WB};
+}
+
+// Flanks of which no node, or not all, has static responses to loads on it.
+std::vector<contact::FlankName> stiff_flanks(const model::Flexibility& flexibility,
+                                             const contact::ToothedBody& toothed) {
+  std::vector<contact::FlankName> stiff;
+  for (const contact::FlankMesh& mesh : toothed.meshes())
+    if (std::ranges::any_of(mesh.node,
+                            [&](int node) { return model::find_loaded(flexibility, node) < 0; }))
+      stiff.push_back(mesh.name);
+  return stiff;
 }
 
 // The columns of the stations that carry a force.
@@ -107,14 +119,32 @@ void StationContact::add_body(const SystemModel::Body& body) {
       body.eq.body->surface, body.true_surface->flanks, compliance, body.true_surface->deviation);
   if (is_rigid(body)) return;
   bodies_.back().tables = std::make_unique<ResponseTables>(*body.eq.body, *bodies_.back().toothed);
+  bodies_.back().stiff = stiff_flanks(body.eq.body->flexibility, *bodies_.back().toothed);
 }
 
-std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motions& motion) const {
+// The name of a body on whose side the flank has no static responses; empty: both have some.
+std::string StationContact::stiff_body(const Pair& pair, const ToothContact& contact) const {
+  for (std::size_t s : {0, 1}) {
+    const std::vector<contact::FlankName>& stiff = bodies_[pair.body[s]].stiff;
+    if (std::ranges::find(stiff, contact.side[s].flank) != stiff.end())
+      return model_->bodies[pair.body[s]].name;
+  }
+  return {};
+}
+
+// Teeth whose flanks a body was not reduced for loads on are left out. obstacle: says so where such flanks
+// touch.
+std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motions& motion,
+                                                                    std::string& obstacle) const {
   std::vector<Teeth> teeth;
   Index n = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (ToothContact& contact : contact::tooth_contacts(
              pairs_[p].toothed, relative(motion[pairs_[p].body[0]], motion[pairs_[p].body[1]]))) {
+      if (const std::string body = stiff_body(pairs_[p], contact); !body.empty()) {
+        if (contact.gap.minCoeff() + pairs_[p].offset < 0) obstacle = body;
+        continue;
+      }
       teeth.push_back({p, std::move(contact), n});
       n += teeth.back().contact.n();
       if (pairs_[p].friction.mu > 0) set_traction(motion, teeth.back());
@@ -497,7 +527,8 @@ void StationContact::set_points(const Motions& motion, const std::vector<Teeth>&
 }
 
 void StationContact::evaluate(const Motions& motion, ResidualContact& responses, ContactState& state) {
-  const std::vector<Teeth> teeth = teeth_in_contact(motion);
+  std::string obstacle;
+  const std::vector<Teeth> teeth = teeth_in_contact(motion, obstacle);
   const Index n = teeth.empty() ? 0 : teeth.back().first + teeth.back().contact.n();
   std::vector<Loads> loads(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -509,6 +540,7 @@ void StationContact::evaluate(const Motions& motion, ResidualContact& responses,
   const Solution solution = solve(motion, teeth, loads, n, responses);
   const VectorXd& f = solution.forces.f;
   set_loads(teeth, loads, solution, state);
+  state.stations.obstacle = obstacle;
   state.force.assign(bodies_.size(), {});
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     set_nodal_forces(b, loads[b], f, motion[b], responses, state);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "dynamics/contact/residual_contact.h"
@@ -46,6 +47,7 @@ class StationContact {
     std::unique_ptr<contact::ToothedBody> toothed;  ///< null: it touches nothing
     std::unique_ptr<ResponseTables> tables;         ///< null: it touches nothing or is rigid
     bool by_nodes = false;  ///< it touches at stations that move: static responses are those of nodes
+    std::vector<contact::FlankName> stiff = {};  ///< flanks to loads on which it has no static responses
   };
   struct Pair {
     std::array<std::size_t, 2> body;  ///< owner and mate
@@ -67,7 +69,8 @@ class StationContact {
   };
 
   void add_body(const SystemModel::Body& body);
-  std::vector<Teeth> teeth_in_contact(const Motions& motion) const;
+  std::string stiff_body(const Pair& pair, const contact::ToothContact& contact) const;
+  std::vector<Teeth> teeth_in_contact(const Motions& motion, std::string& obstacle) const;
   void set_traction(const Motions& motion, Teeth& teeth) const;
   Eigen::Matrix3Xd node_displacements(const Part& part, std::size_t body, const Eigen::VectorXd& q) const;
   std::vector<Part> parts_of(std::size_t body, const std::vector<Teeth>& teeth) const;
