@@ -18,7 +18,7 @@ namespace {
 constexpr double kGap = 1e-5;       // relative, of eigenvalues: room for a window's end
 constexpr int kEndChoices = 8;      // gaps of which the widest becomes the end
 constexpr double kFirstLook = 0.9;  // of what is needed: when Ritz values are first looked at
-constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
+constexpr double kGrowth = 1.02;    // of the basis between two computations of its Ritz values
 constexpr int kLargestBlock = 128;  // after modes were missed
 constexpr int kSpare = 2;           // modes above the wanted ones that show the gap there
 constexpr double kStretch = 0.2;    // by which windows may be larger than chosen, to save the last one
