@@ -7,7 +7,7 @@
 Bodies are reduced once with the largest number of modes and cut for the smaller ones; bodies, results and tables that are
 there already are kept (--anew NAME... makes the steps whose names begin so again). The reference, unless --reduced, are the
 unreduced bodies: in the dynamic analysis for the impact, in a static one for turn_in and rolling (under the torque that the teeth carry at that
-time: a run vibrates). At size tiny rolling contact slows down: the script says so and ends. Leaves in OUT (default
+time: a run vibrates). At size tiny rolling contact with --law penalty slows down: the script says so and ends. Leaves in OUT (default
 out/examples/SIZE, with the size of the worm's mesh and the order where they are given): the bodies; in OUT/EXAMPLE: results, stresses and the tables of `elastogear compare` (BASIS_MODES_against_full*.csv, .txt); in both what every step printed (log/), its CPU and wall time
 and memory (steps.csv).
 """

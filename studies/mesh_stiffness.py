@@ -86,7 +86,7 @@ def main():
         forces = shares(drive, state) * np.cos(beta_b)
         ways.append((state.angle - state.start) * r_b)
         largest.append(forces.max())
-        print(f"roll {roll:.4f}: delta {1e6 * ways[-1]:.3f} um; teeth bear {np.sort(forces[forces > 0])[::-1].round(0)} of {load:.0f} N", flush=True)
+        print(f"roll {roll:.4f}: delta {1e6 * ways[-1]:.3f} um; teeth carry {np.sort(forces[forces > 0])[::-1].round(0)} of {load:.0f} N", flush=True)
     ways, largest = np.array(ways), np.array(largest)
     print(f"F_bt/b = {1e-3 * load / WIDTH:.0f} N/mm; delta {1e6 * ways.mean():.2f} um, {1e6 * np.ptp(ways):.2f} um peak to peak; torsion of the discs {1e6 * twist:.2f} um")
     for name, way in (("as it is", ways), ("without torsion", ways - twist)):

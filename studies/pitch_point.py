@@ -97,7 +97,7 @@ def sector(gear, number, h):
 
 
 def touching(drive):
-    """Numbers of the teeth that bear most, by name of the gear."""
+    """Numbers of the teeth that carry most, by name of the gear."""
     with results.open_file(drive.output, "result") as file:
         groups = file["contact/pinion:wheel/groups"]
         found = {}

@@ -66,7 +66,7 @@ def deviation(stress, exact):
 
 
 def evaluated_sets(reduced, force):
-    """{name: rows}: the root, its nodes away from loaded ones, and the flank that bears most."""
+    """{name: rows}: the root, its nodes away from loaded ones, and the flank that carries most."""
     sets, X = {name: rows[:] for name, rows in reduced["stress/sets"].items()}, reduced["stress/X"][:]
     nodes, magnitude = reduced["stress/nodes"][:], np.linalg.norm(force, axis=1)
     loaded = reduced["mesh/X"][:][magnitude > NOTICEABLE * magnitude.max()]

@@ -3,7 +3,7 @@
 
     studies/wear_meshes.py --elastogear build/release/src/app/elastogear --mesh build/release/studies/spur_pair_mesh --out wear_meshes
 
-The meshes are those of spur_pair_calculix.py: some teeth of each gear, with --flanks rows of faces up a flank. Where one pair bears,
+The meshes are those of spur_pair_calculix.py: some teeth of each gear, with --flanks rows of faces up a flank. Where one pair is loaded,
 the force per width is that of the torque, F' = T / (r_b b), and the depth is known: v_s is the sliding speed and v_r the speed of the
 contact along the flank, both of the rigid involutes. Its mean over a cell is that of the ends and the middle, by Simpson's rule.
 """
@@ -22,7 +22,7 @@ LINE = np.sqrt(DISTANCE**2 - sum(R_B)**2)  # m, between the points where the lin
 
 
 def closed_form(gear, u, torque):
-    """Depth where one pair bears, m, at lengths of roll u, after all revolutions of the first gear."""
+    """Depth where one pair is loaded, m, at lengths of roll u, after all revolutions of the first gear."""
     omega = (1, TEETH[0] / TEETH[1])  # per rad of the first gear; speeds of the contact along flanks are u omega
     own, mate = u * omega[gear], (LINE - u) * omega[1 - gear]
     return K * TURNS * omega[gear] * torque / R_B[0] / WIDTH * np.abs(own - mate) / own

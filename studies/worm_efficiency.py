@@ -8,11 +8,11 @@ normal, through the pitch point (crossed helical gears). At a point x of it with
 the wheel is N (+-n + mu v/|v|), v = v_1 - v_2, and its powers on both gears are f.v_1 and f.v_2: their ratio is the efficiency of
 the point, at the pitch point tan(gamma)/tan(gamma + rho') with the worm driving, tan(gamma - rho')/tan(gamma) with the wheel driving,
 rho' = atan(mu/cos(alpha_n)). Over a pitch the powers are integrated under a constant torque on the worm. How pairs of teeth share
-the load rigid gears leave open: once they bear equally, as far as the tips reach, once as in the sweep, at the points where rigid
+the load rigid gears leave open: once they are loaded equally, as far as the tips reach, once as in the sweep, at the points where rigid
 pairs would be.
 
 Of elastic gears: the efficiency of `evaluate`, and the ratio of the moments of contact on both gears at the two positions between
-which a pair of teeth passes the pitch point, linearly between them; other pairs bear on both sides of it then. Of rigid ones in the
+which a pair of teeth passes the pitch point, linearly between them; other pairs are loaded on both sides of it then. Of rigid ones in the
 same contact: the ratio of the moments of the pair that is nearest to the pitch point alone.
 """
 import argparse
@@ -92,7 +92,7 @@ class Path:
 
 
     def with_shares(self, places, shares, ends, mu, worm_drives):
-        """Mean output over mean input of positions, each with its pairs at places (m) that bear shares; n_t x n both."""
+        """Mean output over mean input of positions, each with its pairs at places (m) that carry shares; n_t x n both."""
         ratio = []
         for s, share in zip(places, shares):
             p_1, p_2 = self.powers(np.clip(s, *ends), mu, worm_drives)

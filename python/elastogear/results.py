@@ -233,7 +233,7 @@ _CAUSES = ("_mesh_error", "_contact_error", "_error", "_time_error")  # ends of 
 
 
 class Evaluation:
-    """What is read off a drive (docs/evaluation.md).
+    """Results of a drive (docs/evaluation.md).
 
         evaluation["transmission_error/peak_to_peak"]      a number, an array or a list of words
         evaluation.unit("transmission_error/peak_to_peak")

@@ -62,7 +62,7 @@ def whole_error(group):
 def stresses(case):
     """Largest von Mises stress of each set, with the band of its estimated error."""
     curves, bands = [], []
-    peaks = [entry for entry in case.peaks if not hasattr(entry[3], "place")]  # evaluate tells of the others
+    peaks = [entry for entry in case.peaks if not hasattr(entry[3], "place")]  # evaluate has the others
     for body, name, group, _ in peaks:
         values = group["von_mises"][:].max(axis=1) / 1e6
         curves.append({"name": f"{body} {name.replace('_', ' ')}", "values": values})

@@ -1,4 +1,4 @@
-"""What `elastogear evaluate` has read off a drive, as curves and a table of the page."""
+"""What `elastogear evaluate` has found of a drive, as curves and a table of the page."""
 import os
 
 import h5py
@@ -14,7 +14,7 @@ CURVES = (  # place, title, {dataset: name}, unit
     ("pressure", "Largest contact pressure", {"largest": "pressure"}, "Pa"),
 )
 PREFIXED = ("m", "N", "N/m", "Pa", "W")
-NOTICEABLE = 0.01  # of the force: pairs of teeth that bear less are not drawn
+NOTICEABLE = 0.01  # of the force: pairs of teeth that carry less are not drawn
 
 
 def group_of(file, result):

@@ -168,9 +168,9 @@ def question(case):
     torque = torque.replace(" ", "\u00a0")
     if case.kind():
         if case.analysis == "sweep":
-            return f"What stresses do the teeth of this {case.kind()} bear as it rolls under {torque}?"
+            return f"What stresses do the teeth of this {case.kind()} have as it rolls under {torque}?"
         if case.analysis == "static":
-            return f"What stresses do the teeth of this {case.kind()} bear at rest under {torque} on the {case.bodies[0]}?"
+            return f"What stresses do the teeth of this {case.kind()} have at rest under {torque} on the {case.bodies[0]}?"
     moving = ", ".join(f"{body} ({motion_of(case, body)})" for body in case.bodies)
     if case.analysis == "dynamic":
         return f"What stresses arise within {case.axis.at(case.time[-1])} in {moving}, with each other in contact?"

@@ -124,13 +124,16 @@ InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b,
 }
 
 void require_apart(const InitialOverlap& overlap, const std::string& pair, double allowed) {
+  constexpr const char* kWaysApart =
+      ": move the bodies apart (-<body>_position, -<body>_rotation, -<body>_angle0) or raise all gaps "
+      "(-contact_offset)";
   const char* who = overlap.slave_side == 0 ? "first" : "second";
   require(!overlap.enclosed, "contact ", pair, ": the surface of the ", who, " body (node ",
-          overlap.slave_node, ") starts inside the other body");
+          overlap.slave_node, ") starts inside the other body", kWaysApart);
   require(overlap.penetration <= allowed * overlap.face_size, "contact ", pair, ": node ", overlap.slave_node,
           " of the ", who, " body starts ", overlap.penetration, " m deep in face ", overlap.face,
-          " of the other, allowed is ", allowed * overlap.face_size, " m (", allowed,
-          " face sizes): move the bodies apart");
+          " of the other, allowed is ", allowed * overlap.face_size, " m (", allowed, " face sizes)",
+          kWaysApart);
 }
 
 }  // namespace elastogear::contact

@@ -192,8 +192,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   return projection;
 }
 
-// Tells whether a node of the master's edges lies over an open side of the slave: where both surfaces end,
-// the nodes of the slave keep them apart.
+// Tells whether a node of the master's edges lies over the slave's boundary: where both surfaces end, the
+// nodes of the slave keep them apart.
 bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const {
   return !is_whole(tried) && settings.points == SlavePoints::nodes &&
          is_at_open_side(other, w.face, w.point.N);

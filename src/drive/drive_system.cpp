@@ -60,7 +60,7 @@ Eigen::Matrix3d turned(const Member& member) {
   return rotation_matrix(member.rotation) * rotation_matrix({0, 0, member.angle});
 }
 
-// The axis stands fast. A joint has the member's angle for its coordinate; a fixed one is turned by it.
+// The axis is fixed. A joint has the member's angle for its coordinate; a fixed one is turned by it.
 void set_joint(const Part& part, BodySetup& body) {
   const bool fixed = part.held && !part.led;
   body.joint.type = fixed ? body::JointType::fixed : body::JointType::revolute;

@@ -89,7 +89,7 @@ def check_elastic(drive):
     short = drive.run("evaluate", "drive.yaml").splitlines()
     assert len(short) <= 30, short
     for line in (r"tension at the roots +largest principal stress in the fillets", r"  pinion +\d+ \+- \d+ MPa, tooth \d+, root of the left \(drive\) flank, diameter 4\d\.\d mm, z -?\d+\.\d mm",
-                 r"  limited by +the mesh, [\d.]+ % of the error of [\d.]+ % at \w+; smaller by -accuracy of elastogear run, which chooses the mesh, in place of -size", r"  flank pressure +1\d{3} MPa by H. Hertz", r"  load sharing .*KHbeta 1\.0"):
+                 r"  limited by +the mesh, [\d.]+ of [\d.]+ MPa at \w+; remedy: elastogear run with -accuracy in place of -size", r"  flank pressure +1\d{3} MPa by H. Hertz", r"  load sharing .*KHbeta 1\.0"):
         assert any(re.search(line, text) for text in short), f"'{line}' is not printed: {short}"
     text = drive.run("evaluate", "drive.yaml", "-verbose")
     for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "a pair of teeth is loaded", "KHbeta", "by H. Hertz", "root of pinion, tension", ", by the mesh ", "loss per coefficient of friction"):

@@ -31,7 +31,7 @@ for side in drive coast; do
   "${sweep[@]}" "${rigid[@]}" -side $side -sweep_positions 5 -sweep_pitches 2 -output rigid_$side.h5 >run.log 2>&1 || fail "rigid gears"
 done
 "${sweep[@]}" -torque "300 N m" -sweep_positions 18 -roll -0.2 -output elastic.h5 -verbose >run.log 2>&1 || fail "elastic gears"
-grep -q "roll angles  *18 of 18, 0 of them anew" run.log || fail "positions are not found from one another"
+grep -q "roll angles  *18 of 18 *$" run.log || fail "positions are not found from one another"
 iterations=$(awk '/Newton iterations/ { print $3 }' run.log)
 [ "$iterations" -lt 85 ] || fail "$iterations Newton iterations at 18 positions"
 "${sweep[@]}" -torque "300 N m" "${bearings[@]}" -sweep_positions 6 -output bearings.h5 >run.log 2>&1 || fail "bearings"

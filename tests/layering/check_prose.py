@@ -1,23 +1,24 @@
 """Reads the documents and reports words of a private vocabulary, sentences that are too long, and lines that are too wide. Of the
-program's sources it reads the texts in quotation marks, for the words, and the comments, for some of them.
+program's sources it reads the texts in quotation marks, for the words, and the comments, for some of them; of Python all strings.
 
 A sentence counts code, formulas, links and references to literature as few words, as one reads them. Tables, code and
 headings are no prose. Usage: check_prose.py REPOSITORY [PAGE ...], where pages are shown with all their long sentences.
 """
+import ast
 import pathlib
 import re
 import statistics
 import sys
 
-PAGES = ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/*/*.md")
-MEDIAN, LONGEST, WIDTH = 20, 45, 120  # words, words, characters
+PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/*/*.md", "examples/README.md", "studies/README.md")
+MEDIAN, LONGEST, WIDTH = 20, 40, 120  # words, words, characters
 IN_COMMENTS = {  # what is not said, and the field's word
     r"looks? at the surfaces": "contact detection",
     r"come into touch|came into touch": "new contacts",
     r"com(e|es|ing) and go(es|ing)?\b|to and fro": "chattering of the active set",
     r"points? of least gap": "local minimum-gap points",
     r"states? of rest\b": "static equilibria",
-    r"open ends?\b": "free boundary",
+    r"open (ends?|sides?)\b": "free boundary, side of the boundary",
     r"deep within each other|deep in each other": "penetrate",
     r"flank approach|local approach": "local contact compliance",
     r"bod(y|ies) that repeats?|repeating bod(y|ies)": "cyclically symmetric bodies",
@@ -26,9 +27,10 @@ IN_COMMENTS = {  # what is not said, and the field's word
     r"softer contact": "a smaller `contact_stiffness`",
 }
 SAY = IN_COMMENTS | {  # the same, of documents and messages
-    r"(a|another|more|fewer|each|less) looks?\b(?! at (the )?(page|picture|table|file))": "contact detection",
+    r"(a|another|more|fewer|each|less|two) looks?\b(?! at (the )?(page|picture|table|file))": "contact detection",
     r"forces (do not )?turn at once": "rotation of contact forces: coupled, frozen",
-    r"\bbears?\b": "is loaded, active, carries",
+    r"\bbears?\b|\bpairs bearing\b": "is loaded, active, carries",
+    r"\bown approach of\b": "local contact compliance",
     r"what is left\b(?! out)": "residual",
     r"(is|are|was|were) told\b(?! apart)|tells? of\b": "is reported",
     r"read off a drive": "results of a drive",
@@ -37,6 +39,7 @@ SAY = IN_COMMENTS | {  # the same, of documents and messages
     r"come together": "converge",
 }
 SOURCES = ("src/**/*.cpp", "src/**/*.h", "include/**/*.h")
+SCRIPTS = ("scripts/page/*.py", "python/elastogear/*.py")
 LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')  # with those that follow, which are one text
 REFERENCE = re.compile(r"\([^()]*\((?:18|19|20)\d\d\)[^()]*\)")
 ABBREVIATION = re.compile(r"(?:(?<!\d )\b[A-Z]|\b(?:Eqs?|Fig|Figs|Tab|No|vol|pp|ed|et al|e\.g|i\.e|cf|Int|Numer|Meth|Eng|Engng|Comput|Appl|Mech|Soc|Chem|Am))\.$")
@@ -89,12 +92,21 @@ def words(text):  # what is said in other words than the field's
     return [f'"{found[0]}": say {better}' for pattern, better in SAY.items() for found in re.finditer(pattern, prose, re.IGNORECASE)]
 
 
+def in_texts(said):
+    return [f'"{found[0]}" in {text[:60]} ...: say {better}' for text in said for pattern, better in SAY.items()
+            for found in re.finditer(pattern, text, re.IGNORECASE)]
+
+
 def messages(source):
     """What the texts of a source say in other words than the field's."""
     code = re.sub(r"^\s*(//|#include).*", "", source, flags=re.MULTILINE)
-    said = [re.sub(r'"\s*"', "", match[0]) for match in LITERAL.finditer(code)]
-    return [f'"{found[0]}" in {text[:60]} ...: say {better}' for text in said for pattern, better in SAY.items()
-            for found in re.finditer(pattern, text, re.IGNORECASE)]
+    return in_texts([re.sub(r'"\s*"', "", match[0]) for match in LITERAL.finditer(code)])
+
+
+def strings(script):
+    """What the strings of a Python script say in other words than the field's."""
+    return in_texts([" ".join(node.value.split()) for node in ast.walk(ast.parse(script))
+                     if isinstance(node, ast.Constant) and isinstance(node.value, str)])
 
 
 def comments(source):
@@ -126,6 +138,8 @@ def check(repository):
     sources = [path for pattern in SOURCES for path in sorted(pathlib.Path(repository).glob(pattern))]
     found += [(path, complaint) for path in sources for of in (messages, comments)
               for complaint in of(path.read_text(encoding="utf-8"))]
+    scripts = [path for pattern in SCRIPTS for path in sorted(pathlib.Path(repository).glob(pattern))]
+    found += [(path, complaint) for path in scripts for complaint in strings(path.read_text(encoding="utf-8"))]
     return [f"{path.relative_to(repository)}: {complaint}" for path, complaint in found]
 
 

@@ -173,7 +173,7 @@ class Page(unittest.TestCase):
 
     def test_inputs_are_as_given(self):
         self.assertEqual(self.seen["module"], "3 mm")
-        self.assertEqual(self.seen["asked"], "What stresses do the teeth of this gear drive bear at rest under 60\u00a0N\u00a0m on the pinion?")
+        self.assertEqual(self.seen["asked"], "What stresses do the teeth of this gear drive have at rest under 60\u00a0N\u00a0m on the pinion?")
 
     def test_it_is_accessible(self):
         self.assertEqual(self.seen["violations"], [])

@@ -35,16 +35,16 @@ Eigen::Vector3d combine(const Face& face, const Eigen::Vector4d& weight);
 /// Local coordinates of the point at s (0 at corner `side`, 1 at the next) on a side.
 Eigen::Vector2d on_side(int sides, int side, double s);
 
-/// Local coordinates of a corner of the face with its open sides moved outwards.
+/// Local coordinates of a corner of the face with its boundary sides moved outwards.
 Eigen::Vector2d extended_corner(const Face& face, int corner);
 
-/// Returns whether (u, v) lies on the face with its open sides moved outwards.
+/// Returns whether (u, v) lies on the face with its boundary sides moved outwards.
 bool inside(const Face& face, double u, double v);
 
-/// How far beyond an open side: 0 there, 1 where its extension ends.
+/// How far beyond a side of the boundary: 0 there, 1 where its extension ends.
 FaceFunction share_of_extension(const Face& face, int side, double u, double v);
 
-/// Factor of a contact force on the extensions: falls from 1 at the open side to 0 where they end, with a
+/// Factor of a contact force on the extensions: falls from 1 at the boundary to 0 where they end, with a
 /// continuous slope. Eq. (6.2b).
 FaceFunction fade_factor(const Face& face, double u, double v);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Topology of a surface: the faces that meet at its edges and nodes, its boundary (open sides), normals, and
-// shares of area.
+// Topology of a surface: the faces that meet at its edges and nodes, its boundary, normals, and shares of
+// area.
 
 #include <Eigen/Core>
 #include <span>
@@ -53,7 +53,7 @@ struct SurfaceView {
   const Eigen::Matrix4Xi& face;
   const Topology& topology;
   const Eigen::Matrix3Xd& x;     ///< 3 x n_nodes, m; with a placer of those nodes that were asked for
-  double extension = 0;          ///< by which open sides are moved outwards, part of the face's length
+  double extension = 0;          ///< by which boundary sides are moved outwards, part of the face's length
   NodePlacer* placer = nullptr;  ///< null: all nodes are placed
   int side = 0;                  ///< of the placer
   const long *stamp = nullptr,

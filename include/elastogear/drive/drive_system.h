@@ -26,10 +26,10 @@ struct Operation {
   Analysis analysis = Analysis::sweep;
   double torque = 0;  ///< N m, on the first gear about its axis
   double speed = 0;   ///< rad/s, of the first gear about its axis at the start of a motion
-  std::vector<std::vector<Bearing>> bearings = {};  ///< of each member; none: its axis stands fast
+  std::vector<std::vector<Bearing>> bearings = {};  ///< of each member; none: its axis is fixed
 };
 
-/// The bearings of a member; none: its axis stands fast.
+/// The bearings of a member; none: its axis is fixed.
 std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member);
 
 /// Bodies stand in the members' order and lack what only a reduced body knows: see take_body().

@@ -63,10 +63,12 @@ void print_advice(const dynamics::System& system, double dt) {
   const double share = dt / advice.step();
   if (share > kTooLongStep)
     print_item("warning", "the step is " + with_unit(share, "times") +
-                              " what the fastest vibration asks for: it will not be resolved");
+                              " what the fastest vibration asks for: it will not be resolved; take -ts_dt " +
+                              short_number(advice.step()));
   if (share > 0 && share < kTooShortStep)
     print_item("warning", "the step is " + with_unit(share, "times") +
-                              " what the fastest vibration asks for: a longer one would do");
+                              " what the fastest vibration asks for: a longer one would do; take -ts_dt " +
+                              short_number(advice.step()));
   warn_of_rigid_blows(system);
 }
 

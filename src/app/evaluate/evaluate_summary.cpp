@@ -153,8 +153,7 @@ std::string remedy(const Cause& cause, const RootPeak& peak, const Surroundings&
     std::snprintf(text, sizeof text, half < 9.5 ? "-accuracy \"%.1g %%\"" : "-accuracy \"%.0f %%\"", half);
     return text;
   }
-  if (!find_item(*peak.items, "time"))
-    return "-accuracy of elastogear run, which chooses the mesh, in place of -size";
+  if (!find_item(*peak.items, "time")) return "elastogear run with -accuracy in place of -size";
   return about.finer.empty() ? "a finer mesh" : "a finer mesh (-size " + about.finer + ")";
 }
 
@@ -164,9 +163,9 @@ void print_limit(const RootPeak& peak, const Surroundings& about) {
   const Cause* most = &kCauses[0];
   for (const Cause& cause : kCauses)
     if (peak.part(cause.item) > peak.part(most->item)) most = &cause;
-  print_item("  limited by", std::string(most->name) + ", " + percent(peak.part(most->item) / all) +
-                                 " of the error of " + percent(all / std::abs(peak.value())) + " at " +
-                                 peak.gear + "; smaller by " + remedy(*most, peak, about));
+  print_item("  limited by", std::string(most->name) + ", " + short_number(1e-6 * peak.part(most->item)) +
+                                 " of " + short_number(1e-6 * all) + " MPa at " + peak.gear +
+                                 "; remedy: " + remedy(*most, peak, about));
 }
 
 void print_roots(const CaseFigures& of, const Surroundings& about) {

@@ -12,7 +12,7 @@ using drive::Bearing;
 // Options of the stiffness that all bearings of a gear have together, at the origin of its body frame.
 const Rows<Bearing> kBearingRows = {
     {"<gear>_bearing_radial", &Bearing::radial, "N/m",
-     "drive: radial stiffness of the gear's bearings together; without one its axis stands fast",
+     "drive: radial stiffness of the gear's bearings together; without it the axis is fixed",
      kDependent | kPositive},
     {"<gear>_bearing_axial", &Bearing::axial, "N/m",
      "drive: axial stiffness of the bearings (default: the radial one)", kDependent | kPositive},

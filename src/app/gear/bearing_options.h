@@ -12,7 +12,7 @@ namespace elastogear::app {
 /// The rows of bearings.
 OptionTable bearing_table();
 
-/// A member's bearings; none: its axis stands fast. Throws Error for options that exclude or need each other,
+/// A member's bearings; none: its axis is fixed. Throws Error for options that exclude or need each other,
 /// and for what the catalogue does not have.
 std::vector<drive::Bearing> bearings(const Options& options, const DriveMember& member);
 

@@ -42,7 +42,7 @@ const std::vector<Topic> kTopics = {
       "wheel_form",
       "<gear>_mesh",
       "<gear>_unit"}},
-    {"flanks as they are ground, and where gears stand",
+    {"micro-geometry, misalignment and bearings",
      true,
      {"<gear>_profile_crowning", "<gear>_lead_crowning", "<gear>_tip_relief", "<gear>_end_relief",
       "<gear>_helix_slope", "<gear>_radial_offset", "<gear>_axial_offset", "<gear>_bearing_radial"}},

@@ -67,9 +67,9 @@ void print_what_lacks(const Options& options, const dynamics::SystemModel& syste
     if (pair.settings.points == contact::SlavePoints::stations) continue;
     const std::string lacks = dynamics::lacks_for_stations(system, pair);
     if (!lacks.empty())
-      print_item(
-          "contact at stations",
-          "not here, flanks are too stiff where they touch, as the mesh has it: " + pair.name + ": " + lacks);
+      print_item("contact at stations",
+                 "not used for " + pair.name + ": " + lacks +
+                     "; its contact compliance is that of the mesh, which is too small");
   }
 }
 

@@ -235,8 +235,10 @@ void print_sweep(const SweepJob& job, const SweepFound& found) {
   const dynamics::SweepSummary& summary = found.summary;
   const std::size_t wanted = job.cases.cases.size() * job.positions.size();
   if (job.cases.several) print_item("cases", std::to_string(job.cases.cases.size()));
-  print_item("roll angles", std::to_string(found.positions) + " of " + std::to_string(wanted) + ", " +
-                                std::to_string(summary.restarts) + " of them anew from the unloaded state");
+  std::string counts = std::to_string(found.positions) + " of " + std::to_string(wanted);
+  if (summary.restarts > 0)
+    counts += ", " + std::to_string(summary.restarts) + " of them restarted from the unloaded state";
+  print_item("roll angles", counts);
   print_detail("Newton iterations", std::to_string(summary.run.newton_iterations));
   for (const dynamics::PairSummary& pair : summary.run.pair)
     print_detail("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at roll angle " +

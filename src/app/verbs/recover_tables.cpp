@@ -84,11 +84,11 @@ void print_other_errors(const recovery::RecoveredBody& body, const io::StressSet
   print_whole_error(set);
   warn_above(
       set, set.mesh_error,
-      "too coarse a mesh for this stress; take a finer one there, or elements of second order in place of "
-      "first");
+      "too coarse a mesh for this stress; take a finer one there (of gear data by -refinement), or elements "
+      "of second order in place of first (-element_order 2)");
   warn_above(set, set.contact_error,
              "this stress lies beside a contact that faces there are too wide to resolve; take those of the "
-             "root's other nodes, or a finer mesh there");
+             "root's other nodes, or a finer mesh there (of gear data by -refinement)");
   warn_above(set, set.time_error,
              "too long steps for this stress; take shorter ones by a smaller step_error, or a smaller ts_dt "
              "where that is given");

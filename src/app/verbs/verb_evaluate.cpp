@@ -69,9 +69,11 @@ void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
   add("radial_load", "N", "radial load of the bearing", bearing.radial_load);
   add("axial_load", "N", "load on the bearing along the gear's z axis", bearing.axial_load);
   add("tilting_moment", "N m", "moment of the bearing across the axis", bearing.tilting_moment);
-  add("radial_deflection", "m", "way of the gear across the axis there", bearing.radial_deflection);
-  add("axial_deflection", "m", "way of the gear along its z axis there", bearing.axial_deflection);
-  add("tilt", "rad", "tilt of the gear there", bearing.tilt);
+  add("radial_deflection", "m", "displacement of the gear across its axis at the bearing",
+      bearing.radial_deflection);
+  add("axial_deflection", "m", "displacement of the gear along its z axis at the bearing",
+      bearing.axial_deflection);
+  add("tilt", "rad", "tilt of the gear at the bearing", bearing.tilt);
 }
 
 Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,

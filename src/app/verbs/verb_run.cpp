@@ -145,7 +145,7 @@ bool ends_here(int mesh, double error, double accuracy, double seconds) {
        << " asked; counts " << kRefinements[mesh] << " times those of size tiny";
   if (!obstacle.empty()) said << "; not reached: " << obstacle;
   if (error < 0)
-    print_item("accuracy", "there is no tension at a root to tell it by");
+    print_item("accuracy", "not estimated: no root of an elastic gear has a tension");
   else
     print_item("accuracy", said.str());
   return reached || !obstacle.empty();

@@ -73,8 +73,8 @@ SideStart estimate(const SideGaps& side, int face) {
   return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
 }
 
-// The open side of a master face that a point near it has crossed most of, of those that it is moved out by;
-// -1: there is none.
+// The boundary side of a master face that a point near it has crossed most of, of those that it is moved out
+// by; -1: there is none.
 int side_crossed(const Face& face, const Projection& w) {
   int crossed = -1;
   double most = 0;  // of the extension
@@ -86,8 +86,8 @@ int side_crossed(const Face& face, const Projection& w) {
   return crossed;
 }
 
-// The point at which an open side of the slave leaves the master, by Newton's method from a trial shortly
-// before. Nothing where the two sides run along each other.
+// The point at which a side of the slave's boundary leaves the master, by Newton's method from a trial
+// shortly before. Nothing where the two sides run along each other.
 std::optional<Minimum> crossing(const GapField& field, const SideGaps& side, const Trial& before, double s) {
   constexpr double kAcross = 0.1,
                    kNear = 1e-3;  // sine of their angle; of the side, that the point may be off

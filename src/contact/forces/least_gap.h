@@ -58,8 +58,9 @@ std::optional<Minimum> followed_minimum(const GapField& field, const Minimum& la
 bool have_met(const Minimum& a, const Minimum& b);
 
 /// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
-/// less than a millionth of the length. On open sides that is also the point at which a side leaves the
-/// master through an open side of that, where the gap falls up to there. face: of the master, near the side.
+/// less than a millionth of the length. On the slave's boundary that is also the point at which a side leaves
+/// the master through the master's boundary, where the gap falls up to there. face: of the master, near the
+/// side.
 std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face);
 
 /// The minimum within the point's face and those over the master's faces beside it; none that differ by less

@@ -8,14 +8,14 @@
 
 namespace elastogear::contact {
 
-/// Marks the nodes on open sides.
+/// Marks the nodes on sides of the boundary.
 std::vector<bool> boundary_nodes(const SurfaceView& surface);
 
 /// Marks them and the nodes on convex edges that turn by more than the feature angle (rad).
 std::vector<bool> edge_nodes(const SurfaceView& surface, double feature_angle);
 
-/// Does a point of a face, with these weights of its corners, lie on an open side, or within a few hundredths
-/// of the face beside it?
+/// Does a point of a face, with these weights of its corners, lie on a side of the boundary, or within a few
+/// hundredths of the face beside it?
 bool is_at_open_side(const SurfaceView& surface, int face, const Eigen::Vector4d& N);
 
 /// The one face beyond a side of a face; -1 where there is none, or more than one.

@@ -17,6 +17,7 @@ constexpr double kNearZero =
     1e-9;                          // forces that are held at zero while their gaps open, over the largest one
 constexpr double kDescent = 1e-4;  // L. Armijo's share of the slope
 constexpr double kRoundoff = 1e-13;  // of the potential, over its parts
+constexpr const char* kRemedy = "take contact at minimum-gap points (-contact_points minima)";
 
 void require_fitting(const StationProblem& problem) {
   const Eigen::Index n = problem.gap.size();
@@ -70,7 +71,8 @@ Eigen::LLT<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& derivatives) {
   const Eigen::LLT<Eigen::MatrixXd> factor(derivatives);
   require(factor.info() == Eigen::Success, "the compliance of ", derivatives.rows(),
           " stations in contact is not positive definite: static responses of a flank are wrong or not "
-          "symmetric");
+          "symmetric; ",
+          kRemedy);
   return factor;
 }
 
@@ -108,7 +110,7 @@ Advance advance(const StationProblem& problem, const Eigen::VectorXd& f, const E
     if (potential(problem, next) <= before + kDescent * gap.dot(next - f) + roundoff)
       return {std::move(next), halving == 0};
   }
-  fail("forces of stations do not lower their potential, the compliance is not positive definite");
+  fail("forces of stations do not lower their potential, the compliance is not positive definite; ", kRemedy);
 }
 
 // Eq. (6.48).
@@ -146,7 +148,7 @@ StationForces station_forces(const StationProblem& problem) {
   bool converged = typical == 0;
   while (!converged) {
     require(++forces.iterations <= kMostIterations, "forces of stations are not found in ", kMostIterations,
-            " iterations, the compliance is not positive definite");
+            " iterations, the compliance is not positive definite; ", kRemedy);
     const Eigen::VectorXd gap = loaded_gaps(problem, forces.f);
     const Eigen::VectorXd target = newton_target(problem, forces.f, gap, typical);
     Advance to = advance(problem, forces.f, gap, target);

@@ -139,7 +139,7 @@ bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V) 
   if (!U.allFinite())
     problem.trouble = kNotFinite;
   else if (problem.system.depth_share(time, U, V) > kDeepest)
-    problem.trouble = "bodies penetrate each other by nearly the contact depth";
+    problem.trouble = "bodies penetrate each other by nearly the contact depth (-contact_depth)";
   else if (!problem.system.contacts(time, U, V).balanced)
     problem.trouble = "contact forces and residual flexibility do not converge";
   return problem.trouble.empty();

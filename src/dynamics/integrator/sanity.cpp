@@ -68,10 +68,11 @@ void Sanity::require_small(const model::Snapshot& now) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const System::Body& body = system_->bodies()[b];
     const double change = bodies_[b].deformation.largest(now.bodies[b].q, kLimitOfLinearity);
-    require(!(change > kLimitOfLinearity), "body '", body.name, "' at t = ", now.time,
-            " s: elastic rotation or strain ", change, ", beyond ", kLimitOfLinearity,
-            " nothing is left of equations that are linear in it. Are loads, stiffness and speeds those that "
-            "were meant, and the time step short enough?");
+    require(
+        !(change > kLimitOfLinearity), "body '", body.name, "' at t = ", now.time,
+        " s: elastic rotation or strain ", change, ", must be at most ", kLimitOfLinearity,
+        " for equations that are linear in it. Check loads, speeds and stiffness (-material_E of reduce), "
+        "or take shorter steps (-ts_dt)");
     if (may_lose_its_mass(body)) require_positive_mass(b, now);
   }
 }

@@ -163,9 +163,9 @@ void ValidityGuard::watch_pair(std::size_t p, const model::Snapshot& snapshot, W
   const double share = distance / system_->contact_settings(p).depth;
   if (too_fast_[p] || share <= 1) return;
   too_fast_[p] = true;
-  said.push_back(
-      sentence("pair " + system_->pairs()[p].name, snapshot.time, share,
-               "surfaces may pass through each other unseen; distance in a step over the contact depth:"));
+  said.push_back(sentence("pair " + system_->pairs()[p].name, snapshot.time, share,
+                          "surfaces may pass through each other unseen; take a smaller -ts_dt or a larger "
+                          "-contact_depth; distance in a step over the contact depth:"));
 }
 
 std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot) {
@@ -193,8 +193,7 @@ std::string ChatterWatch::unsteady(Force& force, double time, double now) {
   const Force window = std::exchange(force, {force.watched, force.highest_mode, 0, now, change});
   const double mean = window.sum / window.states, frequency = window.turns / 2.0 / (time - window.begin);
   if (window.changes > kChange * window.sum && window.turns > kTurns)
-    return "chatters, its force rises and falls from output to output; neither it nor the energy is to be "
-           "trusted";
+    return "chatters: its force rises and falls from output to output, so that force and energy are wrong";
   if (window.changes < kChange * mean * window.turns || frequency < kResolved * window.highest_mode)
     return {};
   std::ostringstream text;
@@ -214,8 +213,8 @@ std::vector<std::string> ChatterWatch::warnings(const model::Snapshot& snapshot)
     std::ostringstream text;
     text.precision(3);
     text << "contact " << system_->pairs()[p].name << " at t = " << snapshot.time << " s: " << what
-         << ". Give bodies with damping_ratio, or a penalty (-contact_law penalty), which bodies that "
-            "begin in touch may need a gap of 1e-7 m for, or outputs nearer to each other";
+         << ". Give the bodies damping (-<body>_damping_ratio), take a penalty (-contact_law penalty; bodies "
+            "that begin in contact may need -contact_offset 1e-7), or write more outputs (-output_dt)";
     said.push_back(text.str());
   }
   return said;

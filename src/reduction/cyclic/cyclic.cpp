@@ -92,7 +92,8 @@ HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Pro
   const double last = modes.eigenvalue.tail<1>()(0);
   require(last <= cutoff.sigma * (1 + kAtCutoff), "the eigensolver missed a mode of harmonic ", k, ": its ",
           modes.eigenvalue.size(), " lowest should lie below ", std::sqrt(cutoff.sigma) / (2 * M_PI),
-          " Hz, the last is at ", std::sqrt(last) / (2 * M_PI), " Hz; use larger blocks of vectors");
+          " Hz, the last is at ", std::sqrt(last) / (2 * M_PI),
+          " Hz; use larger blocks of vectors (-eps_block_lanczos_block) or the whole body (-symmetry none)");
   return modes;
 }
 
@@ -208,7 +209,7 @@ void check_fields(const CyclicSearch& search) {
     const double worst = fem::residual(search.body.body, fields, eigenvalue).maxCoeff();
     require(worst <= allowed, "the modes of one sector leave ", worst,
             " of their forces unbalanced in the whole mesh, allowed are ", allowed,
-            ": the mesh does not repeat well enough");
+            ": the mesh does not repeat well enough; reduce the whole body (-symmetry none)");
   });
 }
 

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kShift = 0;        // amid the modes it would leave the lowest ones more roundoff
 constexpr int kBlock = 4;           // vectors of a harmonic
-constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
+constexpr double kGrowth = 1.02;    // of the basis between two computations of its Ritz values
 constexpr double kFirstLook = 0.2;  // of the basis that is expected to do: when they are first looked at
 
 struct Products {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kGap = 1e-5;       // relative, of eigenvalues: room for a window's end
 constexpr int kEndChoices = 8;      // gaps of which the widest becomes the end
 constexpr double kFirstLook = 0.9;  // of what is needed: when Ritz values are first looked at
-constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
+constexpr double kGrowth = 1.02;    // of the basis between two computations of its Ritz values
 constexpr int kLargestBlock = 128;  // after modes were missed
 constexpr int kSpare = 2;           // modes above the wanted ones that show the gap there
 constexpr double kStretch = 0.2;    // by which windows may be larger than chosen, to save the last one
@@ -261,7 +261,7 @@ void step_back(Search& search, const Shift& shift, const Choice& choice) {
     if (state.lower <= state.shift) require_complete(choice.below_shift, shift.below, shift.sigma);
     require(state.lower > state.shift, "the eigensolver misses modes above ",
             std::sqrt(std::max(0.0, shift.sigma)) / (2 * M_PI),
-            " Hz; use a smaller tolerance or larger windows");
+            " Hz; use a smaller tolerance (-eps_tol) or larger windows (-window)");
   }
   search.block = std::min(kLargestBlock, 2 * search.block);
   search.missed_at = std::max(search.missed_at, shift.sigma);
@@ -308,7 +308,7 @@ bool solve_window(Search& search, int modes) {
 void require_complete(int known, int exact, double sigma) {
   require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
           std::sqrt(std::max(0.0, sigma)) / (2 * M_PI),
-          " Hz; use larger blocks of vectors or a smaller tolerance");
+          " Hz; use larger blocks of vectors (-eps_block_lanczos_block) or a smaller tolerance (-eps_tol)");
 }
 
 SearchState slice_spectrum(Mat K, Mat M, SpectralTransform& transform, const Slicing& slicing,
@@ -338,7 +338,7 @@ SearchState slice_spectrum(Mat K, Mat M, SpectralTransform& transform, const Sli
     }
     if (!has_blocks_left(search)) break;
     require(modes > 1, "no modes converged above ", std::sqrt(std::max(0.0, search.state.lower)) / (2 * M_PI),
-            " Hz; use larger windows or a larger tolerance than ", slicing.tolerance);
+            " Hz; use larger windows (-window) or a larger tolerance (-eps_tol) than ", slicing.tolerance);
     modes /= 2;
   }
   return std::move(search.state);
