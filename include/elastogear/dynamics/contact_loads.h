@@ -5,7 +5,6 @@
 // change by the twists P = [r; theta] of body::FrameDerivative.
 
 #include <Eigen/SparseCore>
-#include <string>
 #include <vector>
 
 #include "elastogear/body/equations.h"
@@ -46,8 +45,6 @@ struct StationLoads {
   Eigen::MatrixXd K = {};                  ///< n x n, N/m: -df/dgap. Eq. (6.48)
   double potential = 0;                    ///< J, of all stations; forces are its derivatives. Eq. (6.38)
   double local_energy = 0;                 ///< J, stored in the half-spaces below the meshes
-  /// The body whose flank touches though it has no static responses to loads there; empty: there is none.
-  std::string obstacle = {};
 };
 
 /// Contact of all bodies at one time, by positions and velocities alone.

@@ -229,14 +229,6 @@ std::string coordinate_name(body::JointType type, Eigen::Index i) {
                                                  : "the displacement along its axis";
 }
 
-// Exact flanks without static responses to loads do not touch.
-std::string hint_at_loads(const System::Body& body) {
-  const model::Flexibility& flexibility = body.eq.body->flexibility;
-  const bool is_partial = !flexibility.empty() &&
-                          std::ssize(flexibility.node) < body.eq.body->surface.X.cols();
-  return is_partial ? ", which was reduced for loads on a part of its surface: see -loaded of reduce" : "";
-}
-
 // Names of the coordinates that only sigma holds.
 std::string free_coordinates(const Equilibrium& at) {
   std::string names;
@@ -248,8 +240,7 @@ std::string free_coordinates(const Equilibrium& at) {
       const double flexibility = at.problem.solver.solve(force)[body.first + i];
       if (!(std::abs(flexibility * at.resistance[b][i]) > kHeldBySigma)) continue;
       names += (names.empty() ? "" : ", ") + ("body '" + body.name + "': ") +
-               coordinate_name(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]) +
-               hint_at_loads(body);
+               coordinate_name(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]);
     }
   }
   return names;

@@ -1,7 +1,6 @@
 #include "dynamics/run/snapshot.h"
 
 #include "dynamics/contact/pair_state.h"
-#include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -17,12 +16,6 @@ model::ContactForces without_zeros(const NodalForces& forces) {
     }
   some.f_B = forces.f_B(Eigen::all, column);
   return some;
-}
-
-void require_responses(const ContactState& contact, double time) {
-  const std::string& body = contact.stations.obstacle;
-  require(body.empty(), "contact at t = ", time, ": a flank of body '", body,
-          "' touches that it was not reduced for loads on; reduce it anew with -loaded flanks");
 }
 
 model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement,
@@ -89,7 +82,6 @@ Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
 
 model::Snapshot snapshot(System& system, const State& x) {
   const ContactState& contact = system.observed_contacts(x);
-  require_responses(contact, x.time);
   model::Snapshot result;
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {

@@ -122,29 +122,26 @@ void StationContact::add_body(const SystemModel::Body& body) {
   bodies_.back().stiff = stiff_flanks(body.eq.body->flexibility, *bodies_.back().toothed);
 }
 
-// The name of a body on whose side the flank has no static responses; empty: both have some.
-std::string StationContact::stiff_body(const Pair& pair, const ToothContact& contact) const {
+// Are both bodies reduced for loads on these flanks? Throws Error where they are not and the flanks touch.
+bool StationContact::has_responses(const Pair& pair, const ToothContact& contact) const {
   for (std::size_t s : {0, 1}) {
     const std::vector<contact::FlankName>& stiff = bodies_[pair.body[s]].stiff;
-    if (std::ranges::find(stiff, contact.side[s].flank) != stiff.end())
-      return model_->bodies[pair.body[s]].name;
+    if (std::ranges::find(stiff, contact.side[s].flank) == stiff.end()) continue;
+    require(contact.gap.minCoeff() + pair.offset >= 0, "body '", model_->bodies[pair.body[s]].name,
+            "' touches with a flank of tooth ", contact.side[s].flank.tooth + 1,
+            " for loads on which it was not reduced; reduce it anew with -loaded flanks");
+    return false;
   }
-  return {};
+  return true;
 }
 
-// Teeth whose flanks a body was not reduced for loads on are left out. obstacle: says so where such flanks
-// touch.
-std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motions& motion,
-                                                                    std::string& obstacle) const {
+std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motions& motion) const {
   std::vector<Teeth> teeth;
   Index n = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (ToothContact& contact : contact::tooth_contacts(
              pairs_[p].toothed, relative(motion[pairs_[p].body[0]], motion[pairs_[p].body[1]]))) {
-      if (const std::string body = stiff_body(pairs_[p], contact); !body.empty()) {
-        if (contact.gap.minCoeff() + pairs_[p].offset < 0) obstacle = body;
-        continue;
-      }
+      if (!has_responses(pairs_[p], contact)) continue;
       teeth.push_back({p, std::move(contact), n});
       n += teeth.back().contact.n();
       if (pairs_[p].friction.mu > 0) set_traction(motion, teeth.back());
@@ -527,8 +524,7 @@ void StationContact::set_points(const Motions& motion, const std::vector<Teeth>&
 }
 
 void StationContact::evaluate(const Motions& motion, ResidualContact& responses, ContactState& state) {
-  std::string obstacle;
-  const std::vector<Teeth> teeth = teeth_in_contact(motion, obstacle);
+  const std::vector<Teeth> teeth = teeth_in_contact(motion);
   const Index n = teeth.empty() ? 0 : teeth.back().first + teeth.back().contact.n();
   std::vector<Loads> loads(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -540,7 +536,6 @@ void StationContact::evaluate(const Motions& motion, ResidualContact& responses,
   const Solution solution = solve(motion, teeth, loads, n, responses);
   const VectorXd& f = solution.forces.f;
   set_loads(teeth, loads, solution, state);
-  state.stations.obstacle = obstacle;
   state.force.assign(bodies_.size(), {});
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     set_nodal_forces(b, loads[b], f, motion[b], responses, state);

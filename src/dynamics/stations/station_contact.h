@@ -4,7 +4,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "dynamics/contact/residual_contact.h"
@@ -69,8 +68,8 @@ class StationContact {
   };
 
   void add_body(const SystemModel::Body& body);
-  std::string stiff_body(const Pair& pair, const contact::ToothContact& contact) const;
-  std::vector<Teeth> teeth_in_contact(const Motions& motion, std::string& obstacle) const;
+  bool has_responses(const Pair& pair, const contact::ToothContact& contact) const;
+  std::vector<Teeth> teeth_in_contact(const Motions& motion) const;
   void set_traction(const Motions& motion, Teeth& teeth) const;
   Eigen::Matrix3Xd node_displacements(const Part& part, std::size_t body, const Eigen::VectorXd& q) const;
   std::vector<Part> parts_of(std::size_t body, const std::vector<Teeth>& teeth) const;
