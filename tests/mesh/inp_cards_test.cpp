@@ -471,6 +471,52 @@ TEST_F(InpPart, must_be_the_only_one_and_in_place) {
   EXPECT_THAT(error("Part-1-1.4", "Part-2-1.4"), HasSubstr("unknown node set 'PART-2-1.4'"));
 }
 
+// Beside the part of kPart one of the same nodes and sets, whose instance stands first.
+const std::string kTwoParts = [] {
+  std::string deck = kPart;
+  const std::size_t begin = deck.find("*Part, name"), end = deck.find("*Assembly");
+  const std::string other = replaced(deck.substr(begin, end - begin), "name=Part-1", "name=Part-0");
+  deck = replaced(deck, "*Part, name=Part-1", other + "*Part, name=Part-1");
+  return replaced(deck, "*Instance, ", "*Instance, name=Part-0-1, part=Part-0\n*End Instance\n*Instance, ");
+}();
+
+Mesh instance_of(const std::string& deck) { return parse_inp({"deck.inp", deck, read_file, "part-1-1"}); }
+
+TEST(InpInstances, keep_what_sets_that_span_instances_hold_of_the_chosen_one) {
+  const Mesh mesh = instance_of(kTwoParts);
+  EXPECT_THAT(mesh.node_sets.at("BOUNDARY"), ElementsAre(0, 1, 2));
+  const std::string both =
+      "*Nset, nset=BOTH, instance=Part-0-1\n 2\n*Nset, nset=Both, instance=Part-1-1\n 4\n"
+      "*Nset, nset=Theirs, instance=Part-0-1\n 1\n*Nset, nset=Set-1, instance=Part-0-1\n 1\n"
+      "*Nset, nset=Held\n Both, Theirs, Part-0-1.3\n*Nset, nset=None\n Theirs, Part-0-1.2\n"
+      "*Elset, elset=_Both_S2, internal, instance=Part-0-1\n 1\n"
+      "*Elset, elset=_Both_S2, internal, instance=Part-1-1\n 1\n"
+      "*Elset, elset=_Theirs_S2, internal, instance=Part-0-1\n 1\n"
+      "*Surface, name=Both\n _Both_S2, S2\n _Theirs_S2, S2\n*Surface, name=Theirs\n _Theirs_S2, S2\n";
+  const std::string deck =
+      replaced(replaced(kTwoParts, "*Nset, nset=Fixed", both + "*Nset, nset=Fixed"), " Fixed, ENCASTRE\n",
+               " Held, 2\n None, 1\n Theirs, PINNED\n Set-1, PINNED\n Part-0-1.2, PINNED\n");
+  const Mesh of_both = instance_of(deck);
+  EXPECT_THAT(of_both.node_sets.at("Both"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("Held"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("BOUNDARY_y"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("BOUNDARY"), ElementsAre(2));
+  for (const char* name : {"Theirs", "None", "Set-1"}) EXPECT_FALSE(of_both.node_sets.contains(name)) << name;
+  EXPECT_THAT(of_both.face_sets.at("Both"), testing::SizeIs(1));
+  EXPECT_FALSE(of_both.face_sets.contains("Theirs"));
+}
+
+TEST(InpInstances, leave_a_part_the_sets_whose_names_others_have_in_the_assembly) {
+  std::string deck = replaced(kTwoParts, "*Nset, nset=Fixed",
+                              "*Elset, elset=Set-1, instance=Part-0-1\n 1\n*Nset, nset=Fixed");
+  const std::size_t chosen = deck.find("*Part, name=Part-1");
+  deck.insert(deck.find("*Solid Section", chosen),
+              "*Elset, elset=Whole\n Set-1\n*Surface, name=Side\n Set-1, S3\n");
+  const Mesh mesh = instance_of(deck);
+  EXPECT_THAT(mesh.cell_sets.at("Whole"), ElementsAre(0));
+  EXPECT_THAT(mesh.face_sets.at("Side"), testing::SizeIs(1));
+}
+
 TEST(MemberBudget, ends_files_that_would_need_far_more_memory_than_they_have_bytes) {
   std::string deck = kDeck.substr(0, kDeck.find("*MATERIAL"));
   for (int i = 5; i < 3000; ++i) deck += "*NODE\n" + std::to_string(i) + ",0,0,0\n";

@@ -25,15 +25,18 @@ struct SurfaceLine {
   int line = 0;
 };
 
+using InpSetName = std::pair<std::string, std::string>;  // keyword and name in capitals
+
 /// Of a deck with several instances, the one that is read, and what belongs to the others and is passed over.
 struct ChosenInstance {
-  std::string name, part;         // in capitals; empty: there is only one
-  std::set<std::string> others;   // in capitals: names of instances
-  std::set<std::string> members;  // in capitals: sets of the assembly that hold other instances' members
+  std::string name, part;               // in capitals; empty: there is only one
+  std::set<std::string> others;         // in capitals: names of instances
+  std::set<InpSetName> own, of_others;  // sets of the assembly with members in the one and in others
   bool in_other_part = false, in_other = false;
 
-  /// Returns whether a set or surface line names a member of another instance: "Part-2-1.Set-2".
-  bool leaves_out(std::string_view field) const;
+  /// Returns whether a line outside of the part names what belongs to other instances alone: one of their
+  /// own sets, "Part-2-1.Set-2", or a set of the assembly. keyword: of the set, "NSET" or "ELSET".
+  bool leaves_out(const std::string& keyword, std::string_view field) const;
 };
 
 struct InpDeck : RawMesh {
@@ -54,14 +57,18 @@ struct InpDeck : RawMesh {
   std::string instance;                                         // its name in capitals
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  // of the instance, unit of the file
   int placement_line = 0;                                       // 0: it is in place
-  bool in_assembly = false, in_instance = false, in_step = false;
+  bool in_part = false, in_assembly = false, in_instance = false, in_step = false;
   int n_steps = 0;
   bool ends_in_a_line = true;
   bool boundary_is_new = false;  // the first step took back what stands above it
-  std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
+  std::set<InpSetName> assembly_sets;
 
   /// Returns whether the present keyword belongs to the assembly itself, not to its instance.
   bool of_assembly() const { return in_assembly && !in_instance; }
+  /// Does the present line name what belongs to other instances than the chosen one? See ChosenInstance.
+  bool leaves_out(const std::string& keyword, std::string_view field) const {
+    return !in_part && !in_instance && chosen.leaves_out(keyword, field);
+  }
   /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
   std::string_view member(std::string_view field) const;
 };
