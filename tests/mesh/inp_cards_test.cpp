@@ -149,7 +149,7 @@ TEST_F(InpCards, name_all_they_leave_out) {
   EXPECT_THAT(report_with("*ELASTIC\n", "*ELASTIC, TYPE=ANISO\n").lost.front(),
               HasSubstr("TYPE=ANISO (line 11)"));
   EXPECT_THAT(report_with("3, 0.\n", "3, 0.5\n").lost.front(),
-              HasSubstr("(line 28): nodes with a displacement other than 0 are not held"));
+              HasSubstr("(line 28): nodes with a displacement other than 0 are held where they are"));
   EXPECT_THAT(report_with("*BOUNDARY", "*BOUNDARY, TYPE=VELOCITY").lost.front(), HasSubstr("TYPE=VELOCITY"));
   EXPECT_THAT(report_with("*DENSITY", "*EXPANSION\n 1e-5\n*DENSITY").ignored.front(), "*EXPANSION (line 13)");
 }
