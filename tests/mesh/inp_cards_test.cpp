@@ -268,7 +268,37 @@ TEST_F(InpCards, generate_rows_of_nodes_and_elements) {
   EXPECT_THAT(mesh.cells[3], ElementsAre(3, 4, 9, 8, 13, 14, 19, 18));
   EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 5, 3\n")),
               HasSubstr("in steps of 3 does not end there"));
-  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 900000000000\n")), HasSubstr("no sensible mesh"));
+  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 900000000000\n")),
+              HasSubstr("node 900000000000 is not"));
+}
+
+TEST_F(InpCards, generate_no_numbers_beyond_64_bits_and_no_more_than_a_mesh_has) {
+  const std::string deck =
+      "*NODE\n 1\n 2, 1\n 3, 0, 1\n 4, 0, 0, 1\n 900000000, 9\n*NGEN\n 1, 2\n*ELEMENT, TYPE=C3D4\n 1, 1, 2, "
+      "3, 4\n"
+      "*ELGEN\n 1, 1\n";
+  EXPECT_NO_THROW(read(deck));
+  const auto of_nodes = [&](const std::string& line) { return error_of(replaced(deck, " 1, 2\n", line)); };
+  const auto of_elements = [&](const std::string& line) { return error_of(replaced(deck, " 1, 1\n", line)); };
+  const std::string largest = "9223372036854775807", smallest = "-9223372036854775808";
+  EXPECT_THAT(of_nodes(" " + largest + ", " + smallest + "\n"),
+              HasSubstr("line 8: the number 9223372036854775807 is beyond 1000000000000000"));
+  EXPECT_THAT(of_nodes(" 1, 2, " + smallest + "\n"), HasSubstr("line 8: the number -9223372036854775808"));
+  EXPECT_THAT(of_nodes(" 1, 900000000\n"), HasSubstr("line 8: *NGEN of 899999999 x 1 x 1"));
+  EXPECT_THAT(of_elements(" 1, 2, " + largest + "\n"), HasSubstr("line 12: the number 9223372036854775807"));
+  EXPECT_THAT(of_elements(" 1, 19999, 1000000000000000\n"), HasSubstr("reaches numbers beyond 64 bits"));
+  EXPECT_THAT(of_elements(" 1, 3000, 1, 1, 3000, 1, 1, 3000, 1, 1\n"),
+              HasSubstr("*ELGEN of 3000 x 3000 x 3000, where *NGEN and *ELGEN may make"));
+  InpText few{"deck.inp", replaced(deck, " 1, 1\n", " 1, 6, 0, 1\n 2, 6, 0, 1\n")};
+  few.most_generated = 12;
+  EXPECT_THROW(parse_inp(few), Error);
+  few.most_generated = 13;
+  EXPECT_THROW(parse_inp(few), Error);  // elements 3 to 6 are defined twice
+  few.content = replaced(deck, " 1, 1\n", " 1, 6, 0, 1\n 6, 6, 0, 1\n");
+  EXPECT_EQ(parse_inp(few).cells.size(), 11);
+  EXPECT_THAT(
+      error_of(replaced(deck, "*NGEN", "*NSET, NSET=A, GENERATE\n " + smallest + ", " + largest + "\n*NGEN")),
+      HasSubstr("names node -9223372036854775808, which the file does not define"));
 }
 
 TEST_F(InpCards, name_line_and_value_of_hostile_input) {

@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -39,12 +41,28 @@ struct ChosenInstance {
   bool leaves_out(const std::string& keyword, std::string_view field) const;
 };
 
+/// Where the last definition of each number stands, of a list that grows at its end.
+class Positions {
+ public:
+  std::optional<std::size_t> find(const std::vector<Tag>& numbers, Tag number) {
+    for (; known_ < numbers.size(); ++known_) at_[numbers[known_]] = known_;
+    const auto found = at_.find(number);
+    return found == at_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::unordered_map<Tag, std::size_t> at_;
+  std::size_t known_ = 0;
+};
+
 struct InpDeck : RawMesh {
   ChosenInstance chosen;
   OtherElements others;
   std::map<Tag, CellNodes> collapsed;  // elements that repeat nodes, as the file has them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
+  Positions node_at, cell_at;  // of those that are generated from
+  Tag left_to_generate = 0;    // nodes and elements
   std::vector<SurfaceLine> surface_lines;
   InpMaterials materials;
   std::vector<BoundaryLine> boundary;

@@ -294,6 +294,7 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   InpDeck deck;
   check_end(text.path, text.content, deck);
   deck.chosen = choose_instance(text);
+  deck.left_to_generate = text.most_generated;
   InpLines in(std::move(text));
   while (in.next()) {
     if (!in.at_keyword()) in.fail_here("data before the first keyword");
