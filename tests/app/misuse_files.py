@@ -58,6 +58,7 @@ def meshes(folder):
         "unmerged.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 17, 18, 19, 20, 13, 14, 15, 16").replace(
             "*ELEMENT", "17, 0.02, 0, 0\n18, 0.02, 0.01, 0\n19, 0.02, 0.01, 0.01\n20, 0.02, 0, 0.01\n*ELEMENT"),
         "slash.inp": good.replace("NSET=CORNER", "NSET=LEFT/CORNER"),
+        "slash_in_elements.inp": good.replace("ELSET=ALL", "ELSET=LEFT/ALL"),
         "empty_set.inp": good + "*NSET, NSET=EMPTY\n",
         "flat_cell.inp": good.replace("\n15, 0.03, 0.01, 0.01\n16, 0.03, 0, 0.01\n", "\n15, 0.23, 0.01, 0.01\n16, 0.23, 0, 0.01\n"),
         "curve.csv": "time [s],modulus [GPa]\n0.01,200\n1,180\n100,150\n",

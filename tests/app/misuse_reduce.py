@@ -8,6 +8,7 @@ REDUCE = [
     Case("unknown option", r"modess.*-modes", "{reduce} -modess 5"),
     Case("missing option", r"material_nu", "{elastogear} reduce -mesh brick.inp -output kept.h5 -material_E 1 -restrain FIX"),
     Case("missing node set", r"NOSUCH.*CORNER.*FIX", "{reduce} -restrain NOSUCH"),
+    Case("element set with a slash", r"slash_in_elements.inp: a set has the name 'LEFT/ALL'", "{reduce} -mesh slash_in_elements.inp"),
     Case("missing face set", r"NOSUCH.*TOP", "{reduce} -surface NOSUCH"),
     Case("NaN option", r"material_E.*nan", "{reduce} -material_E nan"),
     Case("NaN coordinate", r"nan.inp.*nan", "{reduce} -mesh nan.inp"),
