@@ -203,6 +203,21 @@ def look(program, scripts):
     assert sorted(set(os.listdir()) - {"bare.yaml", "varied.yaml"}) == before
     write_stresses("uneven.h5", {"pinion": 1e6, "wheel": 1e6}, uneven=1e-3)
     run("-files", "uneven.h5", "-duty_cycle", "100 N m, 1", fails="no node of its own lies within")
+    foreign_nodes(program, run)
+
+
+def foreign_nodes(program, run):
+    """A stress file of nodes that the body has not."""
+    subprocess.run([program, "reduce", "drive.yaml", "-size", "tiny", "-modes", "0"], capture_output=True, check=True)
+    one = ("-files", "100.h5", "-duty_cycle", "100 N m, 1e5", "-size", "tiny")
+    assert "drive_life_pinion.vtu" in run(*one)
+    with h5py.File("100.h5", "r+") as file:
+        file["pinion/root/nodes"][3] = 10**6
+    run(*one, fails="100.h5: names node 1000000 of pinion root, beyond the")
+    run(*one, "-damage_field", "false")
+    with h5py.File("100.h5", "r+") as file:
+        file["pinion/root/nodes"][3] = -5
+    run(*one, fails="100.h5: nodes of pinion/root have negative numbers")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
+#include "elastogear/io/body_file.h"
 
 namespace elastogear::app {
 namespace {
@@ -57,6 +58,18 @@ void add(SetHistory& history, const Drive& drive, const std::string& file, Swept
   history.place = std::move(read);
 }
 
+// Fields of the damage lie on the body's mesh, which must have the nodes that a stress file names.
+void require_nodes_of_body(const Options& options, const SetHistory& history, const std::string& file) {
+  const std::vector<int>& nodes = history.place.node;
+  if (history.body_file.empty() || nodes.empty()) return;
+  const int n = io::read_body_source(history.body_file).mesh.n_nodes();
+  const int largest = *std::max_element(nodes.begin(), nodes.end());
+  const std::string& body = history.place.body;
+  require(largest < n, file, ": names node ", largest, " of ", body, " ", history.place.set, ", beyond the ",
+          n, " nodes of ", history.body_file, ": the stresses are of another body; give its file, ",
+          options.label(body + "_file"), ", or -damage_field false");
+}
+
 std::vector<SetHistory> read_histories(const Options& options, const Drive& drive,
                                        const LifeSettings& settings, const std::vector<SweptTorque>& swept) {
   const Progress progress = console_progress();
@@ -75,6 +88,8 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
     }
   }
   report(progress, "stresses", 1);
+  for (const SetHistory& history : all)
+    if (settings.field) require_nodes_of_body(options, history, swept.back().file);
   for (const auto& [body, sets] : settings.sets)
     if (std::ranges::none_of(all, [&, &body = body](const SetHistory& h) { return h.member->name == body; }))
       print_item("note", body + ": no life, it is rigid in the run");
