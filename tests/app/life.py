@@ -194,6 +194,11 @@ def look(program, scripts):
     run(*one, "100 N m, 1e5", "-mean_stress", "gerber", fails="none, goodman, fkm")
     run(*one, "100 N m, 1e5", "-tensile_strength", "100 MPa", fails="reaches the tensile strength")
     run(*one, "100 N m, 1e5", "-output", "100.h5", fails="100.h5")
+    os.rename("drive_life_wheel_root_cycles.csv", "kept.csv")
+    os.mkdir("drive_life_wheel_root_cycles.csv")
+    run(*one, "100 N m, 1e5", "-stress_wheel", "root,tip", fails="a folder has it")  # before it is known that there is no set tip
+    os.rmdir("drive_life_wheel_root_cycles.csv")
+    os.rename("kept.csv", "drive_life_wheel_root_cycles.csv")
     with open("bare.yaml", "w", encoding="utf-8") as file:
         file.write(DRIVE[:DRIVE.index("life:")] % "")
     run(*one, "100 N m, 1e5", drive="bare.yaml", fails="-sn_knee_stress is missing")
