@@ -131,6 +131,12 @@ def drives(folder):
         "revolutions_in_h.csv": "torque [N m],revolutions [h]\n100,1e6\n",
         "two_fields.csv": "time [s],torque [N m]\n0,1\n1,2,\n2,3,4\n",
         "ramp_in_ms.csv": "time [ms],torque [kN m]\n0,0\n1,0.001\n",
+        "ramp_in_parentheses.csv": "time (ms),torque (kN m)\n0,0\n1,0.001\n",
+        "ramp_in_lbf_ft.csv": "time (ms),torque (lbf ft)\n0,0\n1,0.001\n",
+        "ramp_of_blanks.csv": "time [ms] torque [kN m]\n0 0\n1 0.001\n",
+        "ramp_of_metres.csv": "time (ms),torque (mm)\n0,0\n1,0.001\n",
+        "duty_in_lbf_ft.csv": "torque (lbf ft),revolutions\n100,1e5\n",
+        "variants_in_parentheses.csv": "pinion_tip_relief (um),wheel_skew (deg)\n20,0.01\n",
         "ramp_in_mm.csv": "time [ms],torque [mm]\n0,0\n1,0.001\n",
         "for_all.yaml": "bodies: [a]\na: {file: body.h5}\nstress_recovery: average\nelement_mass: lumped\nstress: {a: MIDDLE}\n"
                         "result: run.h5\noutput: kept_stress.h5\nsimulate_output: kept_run.h5\nts: {dt: 1e-7, max_time: 1e-6}\n"})
