@@ -11,6 +11,7 @@
 #include "app/setup/drive_input.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
@@ -164,15 +165,11 @@ void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string
 
 void move_files(const RunOnMesh& from, const RunOnMesh& to, const Drive& drive) {
   fs::create_directories(to.folder);
-  const auto move = [](const std::string& a, const std::string& b) {
-    fs::remove_all(b);
-    fs::rename(a, b);
-  };
   for (const DriveMember& member : drive.members)
-    move(body_file(from.reduce, member), body_file(to.reduce, member));
+    put_in_place(body_file(from.reduce, member), body_file(to.reduce, member));
   const Options of = evaluate_with_files(from);
   for (const std::string& file : {of.text("result"), of.text("output")})
-    move(file, in_folder(to.folder, file));
+    put_in_place(file, in_folder(to.folder, file));
 }
 
 }  // namespace elastogear::app
