@@ -63,7 +63,7 @@ OPTIONS = [
     Case("interval without a mode", r"no eigenvalue lies between", "{reduce_brick} -eps_interval 0,1e-3"),
     Case("flag without a value in YAML", r"pinion_internal .flag.yaml, line 5.: is empty, write true or false", "{elastogear} mesh flag.yaml"),
     Case("speed without its unit", r"speed .speed.yaml, line 4. = 1500: write its unit, '1500 rpm'", "{elastogear} mesh speed.yaml"),
-    Case("misspelt key of a drive", r"log_veiw(?!.*nearest known option is -log_view)|log_veiw.*-log_view", "{elastogear} mesh misspelt_drive.yaml"),
+    Case("misspelt key of a drive", r"option -log_veiw .misspelt_drive.yaml, line \d+. = '1'; the nearest known option is -log_view ", "{elastogear} mesh misspelt_drive.yaml"),
     Case("worm drive of a catalogue", r"", "{worm} -axial_module 6.3\\ mm -worm_reference_diameter 63\\ mm -wheel_profile_shift 0.397 -centre_distance 160\\ mm "
          "-worm_flank ZI", kind="good", leaves=r".*\.(msh|svg)"),
     Case("worm drive of a catalogue, throated", r"", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 -centre_distance 160\\ mm -worm_flank ZK",
