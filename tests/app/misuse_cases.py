@@ -1,4 +1,6 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
+import os
+
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
@@ -112,6 +114,10 @@ OPTIONS = [
     Case("table of variants with units", r"", "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_um.csv", kind="good", leaves=r"kept_run(/.*)?"),
     Case("table of variants with a wrong unit in its heading", r"variants_in_s.csv, line 2 = '20 s': 's' is no unit",
          "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_s.csv"),
+    Case("run whose evaluation is a folder", r"'drive_evaluation.h5' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
+         before=lambda bench: os.mkdir(bench.path("drive_evaluation.h5"))),
+    Case("run whose summary is a folder", r"'drive_evaluation.json' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
+         before=lambda bench: os.mkdir(bench.path("drive_evaluation.json"))),
     Case("option with two dashes", r"modes", "{reduce} --modes 5 --modess 4"),
     Case("wrong letters in modes", r"mdoes.*nearest known option is -modes ", "{reduce} -mdoes 5"),
     Case("list with a blank", r"'B' belongs to no option", "{elastogear} reduce -restrain A, B"),

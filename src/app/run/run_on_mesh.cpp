@@ -136,6 +136,14 @@ std::string evaluation_file(const RunOnMesh& of) { return evaluate_with_files(of
 
 std::string result_file(const RunOnMesh& of) { return evaluate_with_files(of).text("result"); }
 
+void require_places(const RunOnMesh& of, const Drive& drive) {
+  const std::string evaluation = evaluation_file(of);
+  std::vector<std::string> files = {result_file(of), evaluation,
+                                    fs::path(evaluation).replace_extension(".json").string()};
+  for (const DriveMember& member : drive.members) files.push_back(body_file(of.reduce, member));
+  for (const std::string& file : files) place_of_output(file);
+}
+
 void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string>& coarser) {
   if (!of.folder.empty()) collectively(PETSC_COMM_WORLD, [&] { fs::create_directories(of.folder); });
   if (const std::string cause = why_on_rank_0([&] { require_all_bodies(of.reduce, drive); });
