@@ -114,6 +114,7 @@ OPTIONS = [
     Case("table of variants with units", r"", "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_um.csv", kind="good", leaves=r"kept_run(/.*)?"),
     Case("table of variants with a wrong unit in its heading", r"variants_in_s.csv, line 2 = '20 s': 's' is no unit",
          "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_s.csv"),
+    Case("help about what moves the cursor", r"no option about '.x1b.31mred'", "{elastogear} reduce -help \x1b[31mred"),
     Case("run whose evaluation is a folder", r"'drive_evaluation.h5' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
          before=lambda bench: os.mkdir(bench.path("drive_evaluation.h5"))),
     Case("run whose summary is a folder", r"'drive_evaluation.json' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
