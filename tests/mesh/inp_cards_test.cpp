@@ -432,6 +432,8 @@ TEST_F(InpInclude, may_be_data_that_a_keyword_names) {
   write_file(folder / "cell.txt", "7, 1, 2, 3, x\n");
   EXPECT_THAT(error_of(deck), HasSubstr("cell.txt, line 1: an element or node number is 'x'"));
   EXPECT_THAT(error_of(replaced(deck, "cell.txt", "none.txt")), HasSubstr("main.inp, line 4: *ELEMENT: "));
+  EXPECT_THAT(error_of(replaced(deck, "cell.txt\n", "cell.txt,")),
+              HasSubstr("line 4: *ELEMENT, INPUT= ends with a comma"));
 }
 
 struct InpPart : ReaderTest {
