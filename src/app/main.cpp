@@ -40,7 +40,7 @@ int print_help(const Verb& verb, const std::string& about) {
   const std::string options = help_by_topic(verb.table, about);
   if (options.empty() && !about.empty()) {
     std::fprintf(stderr, "elastogear: error: %s has no option about '%s'; '%s -help all' lists all\n",
-                 verb.name.c_str(), about.c_str(), verb.name.c_str());
+                 verb.name.c_str(), printable(about).c_str(), verb.name.c_str());
     return 1;
   }
   std::printf(
@@ -116,7 +116,7 @@ int main_with_solvers(const std::vector<Verb>& verbs, const CommandLine& line, i
     Session session(n_words, first_word);
     return main_in_session(verbs, line, petsc.problem, argc, argv);
   } catch (const std::exception& error) {  // on some ranks only, perhaps
-    std::fprintf(stderr, "elastogear: error: %s\n", failure_text(error).c_str());
+    std::fprintf(stderr, "elastogear: error: %s\n", printable(failure_text(error)).c_str());
     MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   }

@@ -31,7 +31,7 @@ void end_of_pipe(int signal) {
 void report_closed_pipes(const std::string& verb) {
   const int length =
       std::snprintf(closed_pipe, sizeof closed_pipe,
-                    "elastogear %.100s: error: what reads the output has gone\n", verb.c_str());
+                    "elastogear %.100s: error: what reads the output has gone\n", printable(verb).c_str());
   closed_pipe_length = static_cast<std::size_t>(length);
   std::signal(SIGPIPE, end_of_pipe);
 }
@@ -62,7 +62,8 @@ void CommonEnd::wait(const std::string& failure, bool said) {
 
 int checked_output(int code, const std::string& verb) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-  std::fprintf(stderr, "elastogear %s: error: standard output: %s\n", verb.c_str(), std::strerror(errno));
+  std::fprintf(stderr, "elastogear %s: error: standard output: %s\n", printable(verb).c_str(),
+               std::strerror(errno));
   return 1;
 }
 

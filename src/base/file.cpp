@@ -67,6 +67,21 @@ int moved_to_other_disk(const std::string& file, const std::string& place) {
   return failure;
 }
 
+// A folder that has the name is put aside first, because none takes the place of one that holds something.
+void put_folder_in_place(const std::string& folder, const std::string& path) {
+  const std::string old = path + ".old" + std::to_string(getpid());
+  const fs::path parent = fs::path(path).parent_path();
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(path))) fs::rename(path, old, error);
+  if (!error) fs::rename(folder, path, error);
+  std::error_code back;
+  if (error) fs::rename(old, path, back);
+  const int failure =
+      error ? error.value() : synchronised(parent.empty() ? "." : parent.string(), O_RDONLY | O_DIRECTORY);
+  if (failure != 0) fail_to_write(path, write_error(failure));
+  fs::remove_all(old, error);
+}
+
 }  // namespace
 
 void fail_to_write(const std::string& path, const std::string& reason) {
@@ -121,6 +136,7 @@ std::string place_of_output(const std::string& path) {
 }
 
 void put_in_place(const std::string& file, const std::string& path) {
+  if (fs::is_directory(file)) return put_folder_in_place(file, path);
   const std::string place = place_of_output(path);
   const fs::path folder = fs::path(place).parent_path();
   int error = synchronised(file, O_RDONLY);

@@ -37,6 +37,7 @@ Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, co
   require(!msh || instance.empty(), path, ": a .msh has no instances; give no instance");
   Mesh mesh = msh ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report, instance);
   require_names(path, mesh.node_sets);
+  require_names(path, mesh.cell_sets);
   require_names(path, mesh.face_sets);
   return mesh;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 #include "elastogear/recovery/stress.h"
 #include "recovery/crept_response.h"
 #include "recovery/error_estimate.h"
@@ -17,12 +18,10 @@ namespace {
 
 const std::vector<int>& members_of(const model::Stress& stress, const std::string& set,
                                    const std::string& file) {
-  const auto found = stress.sets.find(set);
-  std::string known;
-  for (const auto& [name, members] : stress.sets) known += (known.empty() ? "" : ", ") + name;
-  require(found != stress.sets.end(), file, ": no stress modes at the set '", set,
-          "'; there are: ", known.empty() ? "none" : known, ". Name it in -stress_nodes of reduce");
-  return found->second;
+  std::vector<std::string> known;
+  for (const auto& [name, members] : stress.sets) known.push_back(name);
+  require_stress_set(known, set, file);
+  return stress.sets.at(set);
 }
 
 // Output times and nodes of a set that are recovered together, so that their stresses stay in the cache.
@@ -176,6 +175,13 @@ RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool wi
     body.reference = error_reference(body.run, finite_elements);
   body.finite_elements = finite_elements;
   return body;
+}
+
+void require_stress_set(const std::vector<std::string>& known, const std::string& set,
+                        const std::string& file) {
+  require(std::find(known.begin(), known.end(), set) != known.end(), file, ": no stress modes at the set '",
+          set, "'; there are: ", known.empty() ? "none" : elastogear::join(known),
+          ". Name it in -stress_nodes of reduce");
 }
 
 io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elastic, const std::string& set,

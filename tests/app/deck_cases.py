@@ -101,15 +101,18 @@ def part(n=NODES, e=ELEMENTS, instance="*INSTANCE, NAME=BAR-1, PART=BAR\n*END IN
             "*END ASSEMBLY\n" + MATERIAL.replace("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n", "") + "*BOUNDARY\nHELD, ENCASTRE\n" + STEP)
 
 
-def two_parts():
-    """The bar beside a longer one of other sets, which is placed first and held elsewhere."""
+BOTH = "*NSET, NSET=BOTH, INSTANCE=LONG-1\n3, 7\n" + section("BOTH", NX, "*NSET, NSET={}, INSTANCE=BAR-1")
+
+
+def two_parts(sets="", held=""):
+    """The bar beside a longer one of other sets, which is placed first and held elsewhere. sets: of the assembly; held: lines of *BOUNDARY."""
     long = ("*PART, NAME=LONG\n*NODE\n1, 0., 0., 0.\n2, 99., 0., 0.\n3, 99., 9., 0.\n4, 0., 9., 0.\n5, 0., 0., 9.\n6, 99., 0., 9.\n"
             "7, 99., 9., 9.\n8, 0., 9., 9.\n*ELEMENT, TYPE=C3D8, ELSET=EALL\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=FIX\n1, 2\n"
             "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n,\n*END PART\n")
     deck = part(instance="*INSTANCE, NAME=LONG-1, PART=LONG\n0., 0., 50.\n*END INSTANCE\n*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n*END INSTANCE\n"
                 "*NSET, NSET=OTHER, INSTANCE=LONG-1\n1, 2\n*ELSET, ELSET=_TOP_S2, INTERNAL, INSTANCE=LONG-1\n1\n"
-                "*SURFACE, NAME=TOP, TYPE=ELEMENT\n_TOP_S2, S2\n")
-    return deck.replace("*PART, NAME=BAR", long + "*PART, NAME=BAR").replace("*BOUNDARY\n", "*BOUNDARY\nOTHER, ENCASTRE\nLONG-1.FIX, 1, 3\n")
+                "*SURFACE, NAME=TOP, TYPE=ELEMENT\n_TOP_S2, S2\n").replace("*END ASSEMBLY", sets + "*END ASSEMBLY")
+    return deck.replace("*PART, NAME=BAR", long + "*PART, NAME=BAR").replace("*BOUNDARY\n", "*BOUNDARY\n" + held + "OTHER, ENCASTRE\nLONG-1.FIX, 1, 3\n")
 
 
 READ = [
@@ -130,8 +133,9 @@ READ = [
     Deck("label YSYMM", bar(b=HELD + "*BOUNDARY\nTIP, YSYMM\n"), TIP_IN_Y, same_as=BAR_TIP_HELD),
     Deck("degrees of freedom to 6", bar(b="*BOUNDARY\nFIX, 1, 6\n"), FREE_TIP, same_as=BAR),
     Deck("one degree of freedom a line", bar(b="*BOUNDARY\nFIX, 1\nFIX, 2\nFIX, 3\n"), FREE_TIP),
-    Deck("prescribed displacement", bar(b=HELD + "*BOUNDARY\nTIP, 2, 2, 0.1\n"), FREE_TIP, warns=("a displacement other than 0",),
-         same_as=BAR),
+    Deck("prescribed displacement", bar(b=HELD + "*BOUNDARY\nTIP, 2, 2, 0.1\n"), TIP_IN_Y, warns=("a displacement other than 0 are held",)),
+    Deck("prescribed displacement of the first step", bar(step=first_step("*BOUNDARY\nTIP, 2, 2, 0.1\n")), TIP_IN_Y,
+         warns=("the displacement is left out",)),
     Deck("axes of nodes held in all directions", turned("TYPE=C\n0., 10., 10., 1., 10., 10.", "FIX, 1, 3", "FIX"), FREE_TIP),
     Deck("rectangular axes, turned by a quarter", turned("TYPE=R\n0., 1., 0., -1., 0., 0.", "TIP, 1"), TIP_IN_Y),
     Deck("rectangular axes, x along -y", turned("TYPE=R\n0., -1., 0., 1., 0., 0.", "TIP, 1"), TIP_IN_Y),
@@ -169,6 +173,11 @@ READ = [
     Deck("instance that is turned askew", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n0., 0., 0.\n0., 1., 0., 1., 2., 1., 33.\n"
          "*END INSTANCE\n"), FREE_TIP, same_as=BAR),
     Deck("one of two instances", two_parts(), FREE_TIP, same_as=BAR, options="-instance bar-1"),
+    Deck("set that spans two instances", two_parts(BOTH, "BOTH, 2, 2\n"), TIP_IN_Y, same_as=BAR_TIP_HELD, options="-instance BAR-1"),
+    Deck("set of sets of two instances", two_parts("*NSET, NSET=BOTH\nLONG-1.FIX, BAR-1.TIP, OTHER\n", "BOTH, 2, 2\n"), TIP_IN_Y,
+         same_as=BAR_TIP_HELD, options="-instance BAR-1"),
+    Deck("set of another instance with the name of the part's", two_parts("*NSET, NSET=TIP, INSTANCE=LONG-1\n3\n", "TIP, 2, 2\n"), FREE_TIP,
+         same_as=BAR, options="-instance BAR-1"),
     Deck("names in Latin-1", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="latin-1", same_as=BAR),
     Deck("names in UTF-8 behind its mark", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="utf-8-sig", same_as=BAR),
     Deck("names with commas", bar().replace("FIX", '"FIX, LEFT"'), FREE_TIP, same_as=BAR),

@@ -194,6 +194,11 @@ def look(program, scripts):
     run(*one, "100 N m, 1e5", "-mean_stress", "gerber", fails="none, goodman, fkm")
     run(*one, "100 N m, 1e5", "-tensile_strength", "100 MPa", fails="reaches the tensile strength")
     run(*one, "100 N m, 1e5", "-output", "100.h5", fails="100.h5")
+    os.rename("drive_life_wheel_root_cycles.csv", "kept.csv")
+    os.mkdir("drive_life_wheel_root_cycles.csv")
+    run(*one, "100 N m, 1e5", "-stress_wheel", "root,tip", fails="a folder has it")  # before it is known that there is no set tip
+    os.rmdir("drive_life_wheel_root_cycles.csv")
+    os.rename("kept.csv", "drive_life_wheel_root_cycles.csv")
     with open("bare.yaml", "w", encoding="utf-8") as file:
         file.write(DRIVE[:DRIVE.index("life:")] % "")
     run(*one, "100 N m, 1e5", drive="bare.yaml", fails="-sn_knee_stress is missing")
@@ -203,6 +208,21 @@ def look(program, scripts):
     assert sorted(set(os.listdir()) - {"bare.yaml", "varied.yaml"}) == before
     write_stresses("uneven.h5", {"pinion": 1e6, "wheel": 1e6}, uneven=1e-3)
     run("-files", "uneven.h5", "-duty_cycle", "100 N m, 1", fails="no node of its own lies within")
+    foreign_nodes(program, run)
+
+
+def foreign_nodes(program, run):
+    """A stress file of nodes that the body has not."""
+    subprocess.run([program, "reduce", "drive.yaml", "-size", "tiny", "-modes", "0"], capture_output=True, check=True)
+    one = ("-files", "100.h5", "-duty_cycle", "100 N m, 1e5", "-size", "tiny")
+    assert "drive_life_pinion.vtu" in run(*one)
+    with h5py.File("100.h5", "r+") as file:
+        file["pinion/root/nodes"][3] = 10**6
+    run(*one, fails="100.h5: names node 1000000 of pinion root, beyond the")
+    run(*one, "-damage_field", "false")
+    with h5py.File("100.h5", "r+") as file:
+        file["pinion/root/nodes"][3] = -5
+    run(*one, fails="100.h5: nodes of pinion/root have negative numbers")
 
 
 if __name__ == "__main__":

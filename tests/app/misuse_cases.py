@@ -1,4 +1,6 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
+import os
+
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
@@ -63,7 +65,7 @@ OPTIONS = [
     Case("interval without a mode", r"no eigenvalue lies between", "{reduce_brick} -eps_interval 0,1e-3"),
     Case("flag without a value in YAML", r"pinion_internal .flag.yaml, line 5.: is empty, write true or false", "{elastogear} mesh flag.yaml"),
     Case("speed without its unit", r"speed .speed.yaml, line 4. = 1500: write its unit, '1500 rpm'", "{elastogear} mesh speed.yaml"),
-    Case("misspelt key of a drive", r"log_veiw(?!.*nearest known option is -log_view)|log_veiw.*-log_view", "{elastogear} mesh misspelt_drive.yaml"),
+    Case("misspelt key of a drive", r"option -log_veiw .misspelt_drive.yaml, line \d+. = '1'; the nearest known option is -log_view ", "{elastogear} mesh misspelt_drive.yaml"),
     Case("worm drive of a catalogue", r"", "{worm} -axial_module 6.3\\ mm -worm_reference_diameter 63\\ mm -wheel_profile_shift 0.397 -centre_distance 160\\ mm "
          "-worm_flank ZI", kind="good", leaves=r".*\.(msh|svg)"),
     Case("worm drive of a catalogue, throated", r"", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 -centre_distance 160\\ mm -worm_flank ZK",
@@ -99,9 +101,24 @@ OPTIONS = [
     Case("table with a field too many", r"two_fields.csv, line 4: must be two numbers", "{hinged} -a_torque table,two_fields.csv"),
     Case("table in other units", r"", "{hinged} -a_torque table,ramp_in_ms.csv", kind="good", leaves=r"kept_run\.h5"),
     Case("table of lengths for a torque", r"ramp_in_mm.csv, line 2: .*'mm' is no unit of it", "{hinged} -a_torque table,ramp_in_mm.csv"),
+    Case("table of lengths in parentheses for a torque", r"ramp_of_metres.csv, line 2: .*'mm' is no unit of it", "{hinged} -a_torque table,ramp_of_metres.csv"),
+    Case("table in other units, in parentheses", r"", "{hinged} -a_torque table,ramp_in_parentheses.csv", kind="good", leaves=r"kept_run\.h5"),
+    Case("table in a unit that is not known, in parentheses", r"ramp_in_lbf_ft.csv, line 1: the heading 'torque .lbf ft.' ends with 'lbf ft'.*torque .kN m.",
+         "{hinged} -a_torque table,ramp_in_lbf_ft.csv"),
+    Case("table of blanks with units in its heading", r"ramp_of_blanks.csv, line 1: '.ms.' is no heading.*apart by commas",
+         "{hinged} -a_torque table,ramp_of_blanks.csv"),
+    Case("duty cycle in a unit that is not known, in parentheses", r"duty_in_lbf_ft.csv, line 1: the heading .*'lbf ft'",
+         "{elastogear} life drive.yaml -duty_cycle duty_in_lbf_ft.csv -sn_knee_stress 1e8"),
+    Case("table of variants with units in parentheses", r"", "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_parentheses.csv",
+         kind="good", leaves=r"kept_run(/.*)?"),
     Case("table of variants with units", r"", "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_um.csv", kind="good", leaves=r"kept_run(/.*)?"),
     Case("table of variants with a wrong unit in its heading", r"variants_in_s.csv, line 2 = '20 s': 's' is no unit",
          "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_s.csv"),
+    Case("help about what moves the cursor", r"no option about '.x1b.31mred'", "{elastogear} reduce -help \x1b[31mred"),
+    Case("run whose evaluation is a folder", r"'drive_evaluation.h5' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
+         before=lambda bench: os.mkdir(bench.path("drive_evaluation.h5"))),
+    Case("run whose summary is a folder", r"'drive_evaluation.json' is no name for a file: a folder has it", "{elastogear} run drive.yaml -report none",
+         before=lambda bench: os.mkdir(bench.path("drive_evaluation.json"))),
     Case("option with two dashes", r"modes", "{reduce} --modes 5 --modess 4"),
     Case("wrong letters in modes", r"mdoes.*nearest known option is -modes ", "{reduce} -mdoes 5"),
     Case("list with a blank", r"'B' belongs to no option", "{elastogear} reduce -restrain A, B"),

@@ -58,6 +58,8 @@ def meshes(folder):
         "unmerged.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 17, 18, 19, 20, 13, 14, 15, 16").replace(
             "*ELEMENT", "17, 0.02, 0, 0\n18, 0.02, 0.01, 0\n19, 0.02, 0.01, 0.01\n20, 0.02, 0, 0.01\n*ELEMENT"),
         "slash.inp": good.replace("NSET=CORNER", "NSET=LEFT/CORNER"),
+        "slash_in_elements.inp": good.replace("ELSET=ALL", "ELSET=LEFT/ALL"),
+        "commas.inp": good.replace("NSET=FIX", 'NSET="FIX, LEFT"'),
         "empty_set.inp": good + "*NSET, NSET=EMPTY\n",
         "flat_cell.inp": good.replace("\n15, 0.03, 0.01, 0.01\n16, 0.03, 0, 0.01\n", "\n15, 0.23, 0.01, 0.01\n16, 0.23, 0, 0.01\n"),
         "curve.csv": "time [s],modulus [GPa]\n0.01,200\n1,180\n100,150\n",
@@ -89,6 +91,7 @@ def tables(folder):
         "tab.yaml": "bodies: [a]\n" + body + "contact:\n\tdepth: 1e-3\n",
         "text_number.yaml": "bodies: [a]\n" + body + "gravity: [0, 0, down]\n",
         "nested_twice.yaml": "ts_dt: 1e-7\nts: {dt: 2e-7}\n",
+        "commas.yaml": "restrain: ['FIX, LEFT', 'END:y']\n",
         "empty.yaml": "",
         "binary.yaml": "\x01\x02\x03: [\x04",
         "times.txt": "1e-7\n2\n",
@@ -130,6 +133,12 @@ def drives(folder):
         "revolutions_in_h.csv": "torque [N m],revolutions [h]\n100,1e6\n",
         "two_fields.csv": "time [s],torque [N m]\n0,1\n1,2,\n2,3,4\n",
         "ramp_in_ms.csv": "time [ms],torque [kN m]\n0,0\n1,0.001\n",
+        "ramp_in_parentheses.csv": "time (ms),torque (kN m)\n0,0\n1,0.001\n",
+        "ramp_in_lbf_ft.csv": "time (ms),torque (lbf ft)\n0,0\n1,0.001\n",
+        "ramp_of_blanks.csv": "time [ms] torque [kN m]\n0 0\n1 0.001\n",
+        "ramp_of_metres.csv": "time (ms),torque (mm)\n0,0\n1,0.001\n",
+        "duty_in_lbf_ft.csv": "torque (lbf ft),revolutions\n100,1e5\n",
+        "variants_in_parentheses.csv": "pinion_tip_relief (um),wheel_skew (deg)\n20,0.01\n",
         "ramp_in_mm.csv": "time [ms],torque [mm]\n0,0\n1,0.001\n",
         "for_all.yaml": "bodies: [a]\na: {file: body.h5}\nstress_recovery: average\nelement_mass: lumped\nstress: {a: MIDDLE}\n"
                         "result: run.h5\noutput: kept_stress.h5\nsimulate_output: kept_run.h5\nts: {dt: 1e-7, max_time: 1e-6}\n"})

@@ -25,6 +25,8 @@ RECOVER = [
     Case("body file that was made anew", r"(another|other|not the|finger)", "{recover}", before=copied("soft.h5", "body.h5")),
     Case("body file of another basis", r"coordinates", "{recover} -a_file full.h5"),
     Case("field outside of the run", r"field_times.*7", "{recover} -field_times 7"),
+    Case("field outside of the run, without its body file", r"field_times.*7", "{recover} -field_times 7",
+         before=lambda bench: os.remove(bench.path("body.h5"))),
     Case("fields of most times", r"field_times.*most", "{recover} -field_times most"),
     Case("every field but the zeroth", r"field_every.*0", "{recover} -field_times all -field_every 0"),
     Case("every second of chosen fields", r"field_every.*field_times all", "{recover} -field_times 1e-6 -field_every 2"),

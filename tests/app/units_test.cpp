@@ -42,6 +42,32 @@ TEST(Units, convert_each_number_of_a_list) {
   EXPECT_EQ(in_unit("option -x", "ramp, 4 kN m, 2 ms", "N m"), "ramp,4000,0.002");
 }
 
+TEST(Units, stand_in_headings_as_they_are_written) {
+  for (const char* heading :
+       {"torque [kN m]", "torque (kN m)", "torque(kN m)", "torque / kN m", "torque/kN m", "torque, kN m",
+        "torque in kN m", " \"torque (kN m)\" ", "torque  [ kN m ]"}) {
+    const Heading found = heading_of("a.csv", heading);
+    EXPECT_EQ(found.name, "torque") << heading;
+    EXPECT_EQ(found.unit, "kN m") << heading;
+  }
+  const auto unit = [](const char* heading) { return heading_of("a.csv", heading).unit; };
+  EXPECT_EQ(unit("speed (1/min)"), "1/min");
+  EXPECT_EQ(unit("speed / 1/min"), "1/min");
+  EXPECT_EQ(unit("speed m/s"), "m/s");
+  EXPECT_EQ(unit("speed in m/s"), "m/s");
+  EXPECT_EQ(unit("wear (mm^3/(N m))"), "mm^3/(N m)");
+  EXPECT_EQ(unit("wear / mm^3/(N m)"), "mm^3/(N m)");
+  EXPECT_EQ(unit("force (mean) (kN)"), "kN");
+  for (const char* none :
+       {"torque", "count [1]", "count (1)", "count (-)", "time t", "m/s", "input / output"})
+    EXPECT_EQ(unit(none), "") << none;
+  EXPECT_EQ(heading_of("a.csv", "time t").name, "time t");
+  EXPECT_TRUE(message_of([&] {
+                unit("torque (lbf ft)");
+              }).starts_with("a.csv: the heading 'torque (lbf ft)' ends with 'lbf ft' in parentheses"));
+  EXPECT_NE(message_of([&] { unit("wear mm^3/(N ft)"); }), "");
+}
+
 TEST(Units, refuse_what_measures_something_else) {
   const auto message = [](const char* text) {
     return message_of([&] { in_unit("option -module", text, "m"); });

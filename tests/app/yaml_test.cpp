@@ -24,6 +24,10 @@ TEST(Yaml, NestedKeysAreJoined) {
   EXPECT_EQ(options_of("# nothing\n"), "");
 }
 
+TEST(Yaml, ItemsThatAreQuotedKeepTheirCommas) {
+  EXPECT_EQ(options_of("a: ['FIX, LEFT', \"B,C\", D]\n"), "-a \"FIX, LEFT\",\"B,C\",D;");
+}
+
 TEST(Yaml, MapsInListsGiveTheirNameToTheList) {
   EXPECT_EQ(options_of("pc: [{gamg: {k: 1}}, x]\n"), "-pc_gamg_k 1;-pc gamg,x;");
 }

@@ -59,6 +59,24 @@ TEST_F(File, is_written_where_a_link_leads) {
   EXPECT_THROW(write_file((folder / "loop.txt").string(), ""), Error);
 }
 
+TEST_F(File, and_a_folder_take_the_place_of_what_is_there) {
+  const std::string a = folder / "a", b = folder / "b", c = folder / "c";
+  for (const std::string& one : {a, b}) {
+    fs::create_directory(one);
+    write_file(one + "/name", one);
+  }
+  put_in_place(a, b);
+  EXPECT_EQ(read_file(b + "/name"), a);
+  EXPECT_FALSE(fs::exists(a));
+  write_file(a, "file");
+  put_in_place(b, a);
+  EXPECT_EQ(read_file(a + "/name"), a);
+  put_in_place(a, c);
+  EXPECT_EQ(files(), 1);
+  EXPECT_THROW(put_in_place(c, folder / "none/c"), WriteFailure);
+  EXPECT_TRUE(fs::exists(c + "/name"));
+}
+
 TEST_F(File, follows_no_link_under_its_temporary_name) {
   write_file(path, "of another");
   const PendingFile pending((folder / "b.txt").string());

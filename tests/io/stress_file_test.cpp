@@ -1,6 +1,7 @@
 #include "elastogear/io/stress_file.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -54,6 +55,18 @@ TEST_F(StressFileTest, may_lack_positions_but_not_those_of_some_nodes) {
   EXPECT_EQ(read_stress(folder / "a.h5").sets[0].X.size(), 0);
   history.sets[0].X.setZero(3, 1);
   EXPECT_THROW(write_stress(folder / "b.h5", history), Error);
+}
+
+TEST_F(StressFileTest, holds_numbers_that_nodes_can_have) {
+  write_stress(folder / "a.h5", history);
+  history.sets[0].node[1] = -7;
+  EXPECT_THROW(write_stress(folder / "b.h5", history), Error);
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+              dataset = H5Dopen2(file, "/worm/root/nodes", H5P_DEFAULT);
+  H5Dwrite(dataset, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, history.sets[0].node.data());
+  H5Dclose(dataset);
+  H5Fclose(file);
+  EXPECT_THROW(read_stress(folder / "a.h5"), Error);
 }
 
 TEST_F(StressFileTest, a_table_may_name_its_rows) {

@@ -149,7 +149,7 @@ TEST_F(InpCards, name_all_they_leave_out) {
   EXPECT_THAT(report_with("*ELASTIC\n", "*ELASTIC, TYPE=ANISO\n").lost.front(),
               HasSubstr("TYPE=ANISO (line 11)"));
   EXPECT_THAT(report_with("3, 0.\n", "3, 0.5\n").lost.front(),
-              HasSubstr("(line 28): nodes with a displacement other than 0 are not held"));
+              HasSubstr("(line 28): nodes with a displacement other than 0 are held where they are"));
   EXPECT_THAT(report_with("*BOUNDARY", "*BOUNDARY, TYPE=VELOCITY").lost.front(), HasSubstr("TYPE=VELOCITY"));
   EXPECT_THAT(report_with("*DENSITY", "*EXPANSION\n 1e-5\n*DENSITY").ignored.front(), "*EXPANSION (line 13)");
 }
@@ -268,7 +268,37 @@ TEST_F(InpCards, generate_rows_of_nodes_and_elements) {
   EXPECT_THAT(mesh.cells[3], ElementsAre(3, 4, 9, 8, 13, 14, 19, 18));
   EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 5, 3\n")),
               HasSubstr("in steps of 3 does not end there"));
-  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 900000000000\n")), HasSubstr("no sensible mesh"));
+  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 900000000000\n")),
+              HasSubstr("node 900000000000 is not"));
+}
+
+TEST_F(InpCards, generate_no_numbers_beyond_64_bits_and_no_more_than_a_mesh_has) {
+  const std::string deck =
+      "*NODE\n 1\n 2, 1\n 3, 0, 1\n 4, 0, 0, 1\n 900000000, 9\n*NGEN\n 1, 2\n*ELEMENT, TYPE=C3D4\n 1, 1, 2, "
+      "3, 4\n"
+      "*ELGEN\n 1, 1\n";
+  EXPECT_NO_THROW(read(deck));
+  const auto of_nodes = [&](const std::string& line) { return error_of(replaced(deck, " 1, 2\n", line)); };
+  const auto of_elements = [&](const std::string& line) { return error_of(replaced(deck, " 1, 1\n", line)); };
+  const std::string largest = "9223372036854775807", smallest = "-9223372036854775808";
+  EXPECT_THAT(of_nodes(" " + largest + ", " + smallest + "\n"),
+              HasSubstr("line 8: the number 9223372036854775807 is beyond 1000000000000000"));
+  EXPECT_THAT(of_nodes(" 1, 2, " + smallest + "\n"), HasSubstr("line 8: the number -9223372036854775808"));
+  EXPECT_THAT(of_nodes(" 1, 900000000\n"), HasSubstr("line 8: *NGEN of 899999999 x 1 x 1"));
+  EXPECT_THAT(of_elements(" 1, 2, " + largest + "\n"), HasSubstr("line 12: the number 9223372036854775807"));
+  EXPECT_THAT(of_elements(" 1, 19999, 1000000000000000\n"), HasSubstr("reaches numbers beyond 64 bits"));
+  EXPECT_THAT(of_elements(" 1, 3000, 1, 1, 3000, 1, 1, 3000, 1, 1\n"),
+              HasSubstr("*ELGEN of 3000 x 3000 x 3000, where *NGEN and *ELGEN may make"));
+  InpText few{"deck.inp", replaced(deck, " 1, 1\n", " 1, 6, 0, 1\n 2, 6, 0, 1\n")};
+  few.most_generated = 12;
+  EXPECT_THROW(parse_inp(few), Error);
+  few.most_generated = 13;
+  EXPECT_THROW(parse_inp(few), Error);  // elements 3 to 6 are defined twice
+  few.content = replaced(deck, " 1, 1\n", " 1, 6, 0, 1\n 6, 6, 0, 1\n");
+  EXPECT_EQ(parse_inp(few).cells.size(), 11);
+  EXPECT_THAT(
+      error_of(replaced(deck, "*NGEN", "*NSET, NSET=A, GENERATE\n " + smallest + ", " + largest + "\n*NGEN")),
+      HasSubstr("names node -9223372036854775808, which the file does not define"));
 }
 
 TEST_F(InpCards, name_line_and_value_of_hostile_input) {
@@ -402,6 +432,8 @@ TEST_F(InpInclude, may_be_data_that_a_keyword_names) {
   write_file(folder / "cell.txt", "7, 1, 2, 3, x\n");
   EXPECT_THAT(error_of(deck), HasSubstr("cell.txt, line 1: an element or node number is 'x'"));
   EXPECT_THAT(error_of(replaced(deck, "cell.txt", "none.txt")), HasSubstr("main.inp, line 4: *ELEMENT: "));
+  EXPECT_THAT(error_of(replaced(deck, "cell.txt\n", "cell.txt,")),
+              HasSubstr("line 4: *ELEMENT, INPUT= ends with a comma"));
 }
 
 struct InpPart : ReaderTest {
@@ -469,6 +501,52 @@ TEST_F(InpPart, must_be_the_only_one_and_in_place) {
               HasSubstr("a reference point?"));
   EXPECT_THAT(error("elset=_Surf_S1", "elset=Set-1"), HasSubstr("has the name of a set of the part"));
   EXPECT_THAT(error("Part-1-1.4", "Part-2-1.4"), HasSubstr("unknown node set 'PART-2-1.4'"));
+}
+
+// Beside the part of kPart one of the same nodes and sets, whose instance stands first.
+const std::string kTwoParts = [] {
+  std::string deck = kPart;
+  const std::size_t begin = deck.find("*Part, name"), end = deck.find("*Assembly");
+  const std::string other = replaced(deck.substr(begin, end - begin), "name=Part-1", "name=Part-0");
+  deck = replaced(deck, "*Part, name=Part-1", other + "*Part, name=Part-1");
+  return replaced(deck, "*Instance, ", "*Instance, name=Part-0-1, part=Part-0\n*End Instance\n*Instance, ");
+}();
+
+Mesh instance_of(const std::string& deck) { return parse_inp({"deck.inp", deck, read_file, "part-1-1"}); }
+
+TEST(InpInstances, keep_what_sets_that_span_instances_hold_of_the_chosen_one) {
+  const Mesh mesh = instance_of(kTwoParts);
+  EXPECT_THAT(mesh.node_sets.at("BOUNDARY"), ElementsAre(0, 1, 2));
+  const std::string both =
+      "*Nset, nset=BOTH, instance=Part-0-1\n 2\n*Nset, nset=Both, instance=Part-1-1\n 4\n"
+      "*Nset, nset=Theirs, instance=Part-0-1\n 1\n*Nset, nset=Set-1, instance=Part-0-1\n 1\n"
+      "*Nset, nset=Held\n Both, Theirs, Part-0-1.3\n*Nset, nset=None\n Theirs, Part-0-1.2\n"
+      "*Elset, elset=_Both_S2, internal, instance=Part-0-1\n 1\n"
+      "*Elset, elset=_Both_S2, internal, instance=Part-1-1\n 1\n"
+      "*Elset, elset=_Theirs_S2, internal, instance=Part-0-1\n 1\n"
+      "*Surface, name=Both\n _Both_S2, S2\n _Theirs_S2, S2\n*Surface, name=Theirs\n _Theirs_S2, S2\n";
+  const std::string deck =
+      replaced(replaced(kTwoParts, "*Nset, nset=Fixed", both + "*Nset, nset=Fixed"), " Fixed, ENCASTRE\n",
+               " Held, 2\n None, 1\n Theirs, PINNED\n Set-1, PINNED\n Part-0-1.2, PINNED\n");
+  const Mesh of_both = instance_of(deck);
+  EXPECT_THAT(of_both.node_sets.at("Both"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("Held"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("BOUNDARY_y"), ElementsAre(3));
+  EXPECT_THAT(of_both.node_sets.at("BOUNDARY"), ElementsAre(2));
+  for (const char* name : {"Theirs", "None", "Set-1"}) EXPECT_FALSE(of_both.node_sets.contains(name)) << name;
+  EXPECT_THAT(of_both.face_sets.at("Both"), testing::SizeIs(1));
+  EXPECT_FALSE(of_both.face_sets.contains("Theirs"));
+}
+
+TEST(InpInstances, leave_a_part_the_sets_whose_names_others_have_in_the_assembly) {
+  std::string deck = replaced(kTwoParts, "*Nset, nset=Fixed",
+                              "*Elset, elset=Set-1, instance=Part-0-1\n 1\n*Nset, nset=Fixed");
+  const std::size_t chosen = deck.find("*Part, name=Part-1");
+  deck.insert(deck.find("*Solid Section", chosen),
+              "*Elset, elset=Whole\n Set-1\n*Surface, name=Side\n Set-1, S3\n");
+  const Mesh mesh = instance_of(deck);
+  EXPECT_THAT(mesh.cell_sets.at("Whole"), ElementsAre(0));
+  EXPECT_THAT(mesh.face_sets.at("Side"), testing::SizeIs(1));
 }
 
 TEST(MemberBudget, ends_files_that_would_need_far_more_memory_than_they_have_bytes) {

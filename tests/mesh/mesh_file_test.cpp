@@ -114,6 +114,17 @@ TEST_P(MeshFile, of_an_invalid_mesh_is_not_written) {
 INSTANTIATE_TEST_SUITE_P(Formats, MeshFile, testing::Values("ascii", "binary", "inp"),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(MeshFiles, have_names_that_body_files_can_hold) {
+  Folder folder{"mesh_names"};
+  for (const char* card : {"*ELSET, ELSET=A/B\n1\n", "*NSET, NSET=A/B\n1\n", "*SURFACE, NAME=A/B\n1, S1\n"}) {
+    const std::string path = folder / "named.inp";
+    write_file(
+        path,
+        std::string("*NODE\n1\n2, 1\n3, 0, 1\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n") + card);
+    EXPECT_THAT(message(path), testing::HasSubstr("a set has the name 'A/B'")) << card;
+  }
+}
+
 TEST(MeshFiles, name_what_is_wrong_with_the_path) {
   const Folder folder("mesh_path");
   EXPECT_THAT(message(folder / "none.msh"), testing::HasSubstr("none.msh"));

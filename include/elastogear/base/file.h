@@ -28,7 +28,8 @@ bool is_file(const std::string& path);
 std::string place_of_output(const std::string& path);
 
 /// Gives a complete, closed file its name. What it holds is on the disk before the name is, so that a loss of
-/// power leaves the old file or the new one. WriteFailure when it cannot.
+/// power leaves the old file or the new one. Of a folder, whose files are on the disk already, the name alone
+/// changes; what has the new name goes. WriteFailure when it cannot.
 void put_in_place(const std::string& file, const std::string& path);
 
 /// A regular file, to be read from its beginning; Error naming the path and the reason. Devices and pipes are

@@ -63,6 +63,8 @@ class BodyWriter {
 enum class BodyUse { all, motion };
 /// Reads and validates, without flexibility.G; throws Error naming the file and what is wrong with it.
 model::ElasticBody read_body(const std::string& path, BodyUse use = BodyUse::all);
+/// Node sets whose stresses can be recovered.
+std::vector<std::string> read_stress_set_names(const std::string& path);
 /// The three columns of flexibility.G that belong to one orbit, 6 n_r x 3, Pa/N.
 Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit);
 BodySource read_body_source(const std::string& path);

@@ -33,6 +33,8 @@ class DelimitedReader {
   /// Whole number of at least 1.
   std::int64_t count(std::size_t field) const;
 
+  /// "torque.csv, line 3"
+  std::string place() const { return source_ + ", line " + std::to_string(line_); }
   template <class... Parts>
   [[noreturn]] void fail_here(const Parts&... parts) const {
     fail(source_, ", line ", line_, ": ", parts...);

@@ -33,8 +33,10 @@ struct StressFile {
   std::map<std::string, std::string> provenance;
 };
 
-/// Error when shapes disagree or numbers are not finite; the file appears only when complete.
+/// Error when shapes disagree, node numbers are negative or stresses are not finite; the file appears only
+/// when complete.
 void write_stress(const std::string& path, const StressFile& history);
+/// Error as of write_stress. Which node numbers the body's mesh has the file does not say.
 StressFile read_stress(const std::string& path);
 
 }  // namespace elastogear::io

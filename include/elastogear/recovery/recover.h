@@ -32,6 +32,10 @@ struct RecoveredBody {
 RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool with_error,
                                const FiniteElements& finite_elements);
 
+/// Throws Error unless the set is one of those whose stresses the body file can give.
+void require_stress_set(const std::vector<std::string>& known, const std::string& set,
+                        const std::string& file);
+
 /// Stress at the evaluation nodes of a set of the body (elastic: its file), with the estimated error when
 /// asked for and where it can be told. Error naming the sets when there is none of this name.
 io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elastic, const std::string& set,

@@ -87,7 +87,8 @@ std::vector<Case> read_cases(const std::string& path) {
 double number_in_column(const Case& of, const std::string& heading) {
   for (const auto& [name, text] : of.columns)
     if (name == heading || name.starts_with(heading + " [")) {
-      const std::string unit = unit_of_heading(name), number = unit.empty() ? text : text + " " + unit;
+      const std::string unit = heading_of(of.file, name).unit,
+                        number = unit.empty() ? text : text + " " + unit;
       if (const auto value = parse<double>(in_unit("column " + name, number, "N m"))) return *value;
     }
   return std::numeric_limits<double>::quiet_NaN();

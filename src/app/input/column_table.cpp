@@ -21,8 +21,11 @@ bool ColumnTable::next() {
     const bool word =
         !field.empty() && (std::isalpha(static_cast<unsigned char>(field[0])) || field[0] == '"');
     if (!first || !word || parse<double>(field)) return true;
-    for (const std::string_view heading : reader_.fields())
-      units_.push_back(unit_of_heading(std::string(heading)));
+    for (const std::string_view heading : reader_.fields()) {
+      if (!heading.empty() && std::string_view("[(/").find(heading[0]) != std::string_view::npos)
+        fail_here("'", heading, "' is no heading of a column: names with units are apart by commas");
+      units_.push_back(heading_of(reader_.place(), std::string(heading)).unit);
+    }
   }
   return false;
 }

@@ -86,7 +86,7 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
     if (!variant.empty() && fields[name] != variant) continue;
     require(!fields[file].empty(), table, ": the case '", line, "' has no file: no position was found");
     const std::string path = (fs::path(table).parent_path() / fields[file]).string();
-    const std::string unit = unit_of_heading(heading[torque]);
+    const std::string unit = heading_of(table, heading[torque]).unit;
     const auto value =
         parse<double>(unit.empty() ? fields[torque] : in_unit(table, fields[torque] + " " + unit, "N m"));
     require(value.has_value(), table, ": torque '", fields[torque], "' is no number");

@@ -25,12 +25,20 @@
 namespace elastogear::app {
 namespace {
 
+// Commas between double quotes belong to an item, "FIX, LEFT":x; a quote without a second one is a letter.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    std::size_t end = begin;
+    for (bool quoted = false; end < text.size() && (quoted || text[end] != ','); ++end)
+      if (text[end] == '"') quoted = !quoted && text.find('"', end + 1) != text.npos;
+    std::string part = text.substr(begin, end - begin);
+    begin = end + 1;
     const auto first = part.find_first_not_of(" []"), last = part.find_last_not_of(" []");
-    if (first != std::string::npos) parts.push_back(part.substr(first, last - first + 1));
+    if (first == std::string::npos) continue;
+    part = part.substr(first, last - first + 1);
+    if (std::count(part.begin(), part.end(), '"') % 2 == 0) std::erase(part, '"');
+    if (!part.empty()) parts.push_back(std::move(part));
   }
   return parts;
 }

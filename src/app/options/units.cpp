@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "elastogear/base/error.h"
@@ -109,10 +110,12 @@ const Unit* find(const std::string& name) {
   return unit == std::end(kUnits) ? nullptr : unit;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" []"), last = text.find_last_not_of(" []");
+std::string trimmed_of(const std::string& text, const char* letters) {
+  const auto first = text.find_first_not_of(letters), last = text.find_last_not_of(letters);
   return first == text.npos ? "" : text.substr(first, last - first + 1);
 }
+
+std::string trimmed(const std::string& text) { return trimmed_of(text, " []"); }
 
 // A single number; the text itself where there is none, or no unit behind it. wanted: null: SI units.
 std::string converted(const std::string& label, const std::string& text, const Unit* wanted) {
@@ -133,6 +136,26 @@ std::string converted(const std::string& label, const std::string& text, const U
   return number;
 }
 
+std::string unit_or_none(const std::string& text) {
+  std::string unit = trimmed(text);
+  return unit == "1" || unit == "-" ? "" : unit;
+}
+
+// Of "speed m/s", "torque in kN m", "torque, kN m", "torque / kN m" and "torque/kN m".
+std::optional<Heading> behind_words(const std::string& heading) {
+  const auto blank = heading.rfind(' '), slash = heading.rfind('/');
+  if (blank != heading.npos && slash != heading.npos && slash > blank + 1 && find(heading.substr(blank + 1)))
+    return Heading{trimmed_of(heading.substr(0, blank), " /,"), heading.substr(blank + 1)};
+  for (const char* word : {" in ", ",", "/"}) {
+    const auto at = heading.find(word);
+    if (at == heading.npos || at == 0) continue;
+    const std::string unit = trimmed(heading.substr(at + std::string(word).size())),
+                      name = heading.substr(0, at);
+    if (find(unit) && !find(heading)) return Heading{trimmed(name), unit};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string units_like(const std::string& unit) {
@@ -145,11 +168,23 @@ std::string units_like(const std::string& unit) {
   return all;
 }
 
-std::string unit_of_heading(const std::string& heading) {
+Heading heading_of(const std::string& label, const std::string& text) {
+  std::string heading = trimmed_of(text, " \t\"");
   const auto open = heading.find('['), close = heading.find(']', open);
-  if (open == heading.npos || close == heading.npos) return "";
-  const std::string unit = trimmed(heading.substr(open + 1, close - open - 1));
-  return unit == "1" || unit == "-" ? "" : unit;
+  if (open != heading.npos && close != heading.npos)
+    return {trimmed(heading.substr(0, open)), unit_or_none(heading.substr(open + 1, close - open - 1))};
+  if (const auto found = behind_words(heading)) return *found;
+  if (!heading.ends_with(')')) return {heading, ""};
+  std::string last;
+  for (auto at = heading.find('('); at != heading.npos; at = heading.find('(', at + 1)) {
+    if (at > 0 && heading[at - 1] == '/') continue;  // within a unit, "mm^3/(N m)"
+    last = trimmed(heading.substr(at + 1, heading.size() - at - 2));
+    if (const std::string unit = unit_or_none(last); unit.empty() || find(unit))
+      return {trimmed(heading.substr(0, at)), unit};
+  }
+  fail(label, ": the heading '", heading, "' ends with '", last,
+       "' in parentheses, which is no unit that is known: write the unit as in 'torque [kN m]', and other "
+       "words without parentheses");
 }
 
 std::string in_unit(const std::string& label, const std::string& text, const std::string& unit) {

@@ -12,8 +12,14 @@ namespace elastogear::app {
 /// those known ("-"), nothing is done.
 std::string in_unit(const std::string& label, const std::string& text, const std::string& unit);
 
-/// "kN m" of the heading of a column, "torque [kN m]"; empty where it has none, or 1.
-std::string unit_of_heading(const std::string& heading);
+/// The heading of a column.
+struct Heading {
+  std::string name, unit;  ///< "torque", "kN m"; the unit is empty where there is none, or 1
+};
+
+/// Of "torque [kN m]", "torque (kN m)", "torque / kN m", "torque, kN m" or "torque in kN m". Throws Error
+/// that begins with `label` where parentheses hold no unit that is known.
+Heading heading_of(const std::string& label, const std::string& text);
 
 /// The units that in_unit knows for what `unit` measures, "um, mm, cm, m"; empty when it knows none.
 std::string units_like(const std::string& unit);

@@ -69,6 +69,14 @@ std::string key_of(const Reader& reader, const yaml_node_t& key, const Place& pl
   return name;
 }
 
+// An item that is quoted is one item, whatever commas it has.
+std::string item_text(const yaml_node_t& node) {
+  const std::string text = scalar(node);
+  const auto style = node.data.scalar.style;
+  const bool quoted = style == YAML_SINGLE_QUOTED_SCALAR_STYLE || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
+  return quoted && text.find(',') != text.npos && text.find('"') == text.npos ? '"' + text + '"' : text;
+}
+
 // Maps in a list give their keys to the prefix, and their first key's name to the list.
 std::string list_text(Reader& reader, const yaml_node_t& list, const Place& below) {
   std::string text;
@@ -76,7 +84,7 @@ std::string list_text(Reader& reader, const yaml_node_t& list, const Place& belo
     const yaml_node_t& node = reader.node(*item);
     std::string part;
     if (node.type == YAML_SCALAR_NODE) {
-      part = scalar(node);
+      part = item_text(node);
     } else if (node.type == YAML_MAPPING_NODE &&
                node.data.mapping.pairs.top - node.data.mapping.pairs.start == 1) {
       part = scalar(reader.node(node.data.mapping.pairs.start->key));

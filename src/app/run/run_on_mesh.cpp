@@ -11,6 +11,7 @@
 #include "app/setup/drive_input.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
@@ -135,6 +136,14 @@ std::string evaluation_file(const RunOnMesh& of) { return evaluate_with_files(of
 
 std::string result_file(const RunOnMesh& of) { return evaluate_with_files(of).text("result"); }
 
+void require_places(const RunOnMesh& of, const Drive& drive) {
+  const std::string evaluation = evaluation_file(of);
+  std::vector<std::string> files = {result_file(of), evaluation,
+                                    fs::path(evaluation).replace_extension(".json").string()};
+  for (const DriveMember& member : drive.members) files.push_back(body_file(of.reduce, member));
+  for (const std::string& file : files) place_of_output(file);
+}
+
 void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string>& coarser) {
   if (!of.folder.empty()) collectively(PETSC_COMM_WORLD, [&] { fs::create_directories(of.folder); });
   if (const std::string cause = why_on_rank_0([&] { require_all_bodies(of.reduce, drive); });
@@ -164,15 +173,11 @@ void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string
 
 void move_files(const RunOnMesh& from, const RunOnMesh& to, const Drive& drive) {
   fs::create_directories(to.folder);
-  const auto move = [](const std::string& a, const std::string& b) {
-    fs::remove_all(b);
-    fs::rename(a, b);
-  };
   for (const DriveMember& member : drive.members)
-    move(body_file(from.reduce, member), body_file(to.reduce, member));
+    put_in_place(body_file(from.reduce, member), body_file(to.reduce, member));
   const Options of = evaluate_with_files(from);
   for (const std::string& file : {of.text("result"), of.text("output")})
-    move(file, in_folder(to.folder, file));
+    put_in_place(file, in_folder(to.folder, file));
 }
 
 }  // namespace elastogear::app

@@ -27,6 +27,9 @@ bool has_evaluation(const RunOnMesh& of);
 std::string evaluation_file(const RunOnMesh& of);
 std::string result_file(const RunOnMesh& of);
 
+/// Throws Error where something stands in the way of a file that a run writes, a folder of its name. Rank 0.
+void require_places(const RunOnMesh& of, const Drive& drive);
+
 /// Makes what is not there and evaluates the result; says why it makes something. coarser: evaluation files
 /// of coarser meshes, the coarsest first. Collective.
 void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string>& coarser);

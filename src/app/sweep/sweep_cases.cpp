@@ -119,8 +119,9 @@ std::vector<Variant> variants_of_table(const std::string& file, const OptionTabl
     if (fields[0].starts_with('#')) continue;
     if (head.empty()) {
       for (const std::string& field : fields) {
-        units.push_back(unit_of_heading(field));
-        head.push_back(field.substr(0, field.find_last_not_of(' ', field.find('[') - 1) + 1));
+        const Heading heading = heading_of(where, field);
+        units.push_back(heading.unit);
+        head.push_back(heading.name);
         if (head.back() != "variant") spec_of(keys, {where, head.back(), ""});
       }
       continue;

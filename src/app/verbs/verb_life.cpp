@@ -9,6 +9,7 @@
 #include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
+#include "elastogear/io/body_file.h"
 
 namespace elastogear::app {
 namespace {
@@ -57,6 +58,18 @@ void add(SetHistory& history, const Drive& drive, const std::string& file, Swept
   history.place = std::move(read);
 }
 
+// Fields of the damage lie on the body's mesh, which must have the nodes that a stress file names.
+void require_nodes_of_body(const Options& options, const SetHistory& history, const std::string& file) {
+  const std::vector<int>& nodes = history.place.node;
+  if (history.body_file.empty() || nodes.empty()) return;
+  const int n = io::read_body_source(history.body_file).mesh.n_nodes();
+  const int largest = *std::max_element(nodes.begin(), nodes.end());
+  const std::string& body = history.place.body;
+  require(largest < n, file, ": names node ", largest, " of ", body, " ", history.place.set, ", beyond the ",
+          n, " nodes of ", history.body_file, ": the stresses are of another body; give its file, ",
+          options.label(body + "_file"), ", or -damage_field false");
+}
+
 std::vector<SetHistory> read_histories(const Options& options, const Drive& drive,
                                        const LifeSettings& settings, const std::vector<SweptTorque>& swept) {
   const Progress progress = console_progress();
@@ -75,6 +88,8 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
     }
   }
   report(progress, "stresses", 1);
+  for (const SetHistory& history : all)
+    if (settings.field) require_nodes_of_body(options, history, swept.back().file);
   for (const auto& [body, sets] : settings.sets)
     if (std::ranges::none_of(all, [&, &body = body](const SetHistory& h) { return h.member->name == body; }))
       print_item("note", body + ": no life, it is rigid in the run");
@@ -99,6 +114,27 @@ io::LifeFile life_file(const Options& options, const LifeReport& report) {
   return file;
 }
 
+// Before the work: what the life of every set that is wanted would write.
+void protect_inputs(const Options& options, const Drive& drive, const LifeSettings& settings,
+                    const std::vector<SweptTorque>& swept) {
+  LifeReport expected;
+  std::vector<std::string> data;
+  for (const SweptTorque& at : swept) data.push_back(at.file);
+  for (const auto& [body, sets] : settings.sets) {
+    const std::string body_file = body_file_of(options, member_of(options, drive, body), swept.front());
+    if (!body_file.empty()) data.push_back(body_file);
+    for (const std::string& set : sets) {
+      LifeOfSet& one = expected.sets.emplace_back();
+      one.set.body = body;
+      one.set.set = set;
+      one.body_file = body_file;
+    }
+  }
+  std::vector<std::string> outputs = side_files(settings.output, expected, settings.field);
+  outputs.push_back(settings.output);
+  protect_inputs(options, {{"output", outputs}}, data);
+}
+
 void run_life(const Options& given, const std::vector<std::string>&) {
   require(is_drive(given), "needs a drive file: elastogear life drive.yaml (docs/drives.md)");
   const Options options = with_gears(given);
@@ -108,6 +144,7 @@ void run_life(const Options& given, const std::vector<std::string>&) {
   options.reject_unknown({{"body", names}, {"gear", names}});
   const LifeSettings settings = life_settings(options, drive);
   LifeReport report{duty_cycle(options), swept_torques(options, settings), {}};
+  protect_inputs(options, drive, settings, report.swept);
   const OutputLock lock(settings.output);
   std::vector<double> torques;
   for (const SweptTorque& at : report.swept) torques.push_back(at.torque);
@@ -115,12 +152,6 @@ void run_life(const Options& given, const std::vector<std::string>&) {
   for (const SetHistory& history : read_histories(options, drive, settings, report.swept))
     report.sets.push_back(life_of_set(history, strength_of(options, history.member->name), torques,
                                       report.blocks, settings.proportional));
-  std::vector<std::string> data, outputs = side_files(settings.output, report, settings.field);
-  for (const SweptTorque& at : report.swept) data.push_back(at.file);
-  for (const LifeOfSet& one : report.sets)
-    if (!one.body_file.empty()) data.push_back(one.body_file);
-  outputs.push_back(settings.output);
-  protect_inputs(options, {{"output", outputs}}, data);
   io::write_life(settings.output, life_file(options, report));
   print_life(report);
   print_item("written", settings.output);

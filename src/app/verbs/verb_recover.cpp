@@ -55,11 +55,23 @@ bool needs_error(const RecoverSettings& settings, const std::string& body) {
   return (settings.stress.contains(body) || has_fields(settings)) && settings.error_estimate;
 }
 
-Run read_run(const RecoverSettings& settings, const Progress& progress) {
-  Run run{settings.result, io::read_times(settings.result), {}};
-  if (!io::is_complete(run.result))
-    print_item("warning", run.result + " is incomplete: its run did not reach the end");
-  std::vector<recovery::BodyOfRun> bodies = recovery::read_bodies_of_run(run.result, settings.body_file);
+// Before the work: bodies and sets that the options name and the run has not.
+void require_sets(const RecoverSettings& settings, const std::vector<recovery::BodyOfRun>& bodies) {
+  for (const auto& [name, sets] : settings.stress) {
+    const auto body = std::find_if(bodies.begin(), bodies.end(),
+                                   [&, &name = name](const auto& one) { return one.name == name; });
+    require(body != bodies.end(), "option -stress_", name, ": ", settings.result, " has no body '", name,
+            "'; it has: ", join(bodies, ", ", &recovery::BodyOfRun::name));
+    if (body->rigid || body->file.empty()) continue;
+    const std::vector<std::string> known = io::read_stress_set_names(body->file);
+    for (const std::string& set : sets) recovery::require_stress_set(known, set, body->file);
+  }
+}
+
+Run prepared_run(const RecoverSettings& settings, const Eigen::VectorXd& time,
+                 std::vector<recovery::BodyOfRun> bodies, const Progress& progress) {
+  const LogStage stage("static responses of the run");
+  Run run{settings.result, time, {}};
   for (recovery::BodyOfRun& body : bodies) {
     report(progress, "static responses", share(bodies, body));
     if (body.rigid) {
@@ -75,12 +87,10 @@ Run read_run(const RecoverSettings& settings, const Progress& progress) {
 }
 
 RecoveredBody& find_body(Run& run, const std::string& name) {
-  std::string known;
-  for (RecoveredBody& body : run.bodies) {
-    if (body.run.name == name) return body;
-    known += (known.empty() ? "" : ", ") + body.run.name;
-  }
-  fail("option -stress_", name, ": ", run.result, " has no body '", name, "'; it has: ", known);
+  const auto found = std::find_if(run.bodies.begin(), run.bodies.end(),
+                                  [&](const RecoveredBody& body) { return body.run.name == name; });
+  require(found != run.bodies.end(), "internal: ", run.result, " has no body '", name, "' to recover");
+  return *found;
 }
 
 std::string table_path(const RecoverSettings& settings, const std::string& body, const std::string& set) {
@@ -151,12 +161,12 @@ int nearest_step(const Eigen::VectorXd& time, double t) {
   return static_cast<int>(step);
 }
 
-std::vector<int> field_steps(const RecoverSettings& settings, const Run& run) {
+std::vector<int> field_steps(const RecoverSettings& settings, const Eigen::VectorXd& time) {
   std::vector<int> steps;
-  const int last = static_cast<int>(run.time.size()) - 1;
+  const int last = static_cast<int>(time.size()) - 1;
   for (int step = 0; settings.all_fields && step < last; step += settings.field_every) steps.push_back(step);
   if (settings.all_fields) steps.push_back(last);
-  for (double time : settings.field_times) steps.push_back(nearest_step(run.time, time));
+  for (double t : settings.field_times) steps.push_back(nearest_step(time, t));
   return steps;
 }
 
@@ -206,13 +216,13 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
   report(progress, "fields", 1);
 }
 
-void protect_inputs(const Options& options, const RecoverSettings& settings, const Run& run,
-                    std::size_t n_fields) {
+void protect_inputs(const Options& options, const RecoverSettings& settings,
+                    const std::vector<recovery::BodyOfRun>& bodies, std::size_t n_fields) {
   Outputs stresses{"output", {settings.output}}, fields{"fields", {settings.fields + ".pvd"}};
   for (const auto& [body, sets] : settings.stress)
     for (const std::string& set : sets) stresses.files.push_back(table_path(settings, body, set));
-  std::vector<std::string> data = {run.result};
-  for (const auto& [body, response, reference, finite_elements] : run.bodies) {
+  std::vector<std::string> data = {settings.result};
+  for (const recovery::BodyOfRun& body : bodies) {
     data.push_back(body.file);
     const std::string base = settings.fields + "_" + body.name;
     for (std::size_t i = 0; i < n_fields; ++i) fields.files.push_back(field_path(base, i, n_fields));
@@ -242,12 +252,14 @@ void run_recover(const Options& given, const std::vector<std::string>&) {
   const RecoverSettings settings = recover_settings(options);
   const OutputLock lock(settings.output), lock_of_fields(settings.fields + ".pvd");
   const Progress progress = console_progress();
-  Run run = [&] {
-    const LogStage stage("static responses of the run");
-    return read_run(settings, progress);
-  }();
-  const std::vector<int> steps = field_steps(settings, run);
-  protect_inputs(options, settings, run, steps.size());
+  const Eigen::VectorXd time = io::read_times(settings.result);
+  if (!io::is_complete(settings.result))
+    print_item("warning", settings.result + " is incomplete: its run did not reach the end");
+  const std::vector<int> steps = field_steps(settings, time);
+  std::vector<recovery::BodyOfRun> bodies = recovery::read_bodies_of_run(settings.result, settings.body_file);
+  require_sets(settings, bodies);
+  protect_inputs(options, settings, bodies, steps.size());
+  Run run = prepared_run(settings, time, std::move(bodies), progress);
   write_stresses(options, settings, run, progress);
   write_fields(settings, run, steps, progress);
   write_trees(settings, run.bodies, steps.empty() ? 0 : steps.front());

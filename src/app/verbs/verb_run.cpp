@@ -23,6 +23,7 @@
 #include "app/setup/drive_on_meshes.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/evaluation/grid_convergence.h"
 
@@ -206,14 +207,20 @@ void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
   }
 }
 
+bool makes_page(const Options& given) {
+  return given.choice("report", {"page", "none"}) == 0 && !embedding() && given.files().size() == 1;
+}
+
+std::string page_of(const RunOnMesh& of) { return drive_stem(of.reduce) + "_report.html"; }
+
 // The page of one result of one drive file. A run without it has all its figures.
 void make_report(const Options& given, const RunOnMesh& of) {
-  if (given.choice("report", {"page", "none"}) == 1 || embedding() || given.files().size() != 1) return;
+  if (!makes_page(given)) return;
   number_on_rank_0([&] {
     const PageInputs inputs{given.files()[0], result_file(of), evaluation_file(of),
                             of.reduce.text("store") == "all" && of.reduce.text("modes") != "0"};
     if (!std::filesystem::is_regular_file(inputs.result)) return 0;  // a folder of several cases
-    const std::string page = drive_stem(of.reduce) + "_report.html", obstacle = make_page(inputs, page);
+    const std::string page = page_of(of), obstacle = make_page(inputs, page);
     print_item("report", obstacle.empty() ? page + ", open it in a browser" : "not made: " + obstacle);
     return 0;
   });
@@ -223,9 +230,13 @@ void run_all(const Options& given, const std::vector<std::string>&) {
   require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
   RunSettings settings;
   read_rows(given, kRunRows, settings);
-  given.choice("report", {"page", "none"});  // another word is refused before the work
   const Drive drive = read_drive(with_gears(given));
   RunOnMesh of = run_options(given);
+  number_on_rank_0([&] {
+    require_places(of, drive);
+    if (makes_page(given)) place_of_output(page_of(of));
+    return 0;
+  });
   if (!chooses_mesh(given, of, drive)) return make(of, drive, {}), make_report(given, of);
   // Equilibria take static responses alone, and errors by the mesh come from coarser ones.
   if (of.reduce.text("basis") == "modal_residual" && !relaxes_by(of.reduce))

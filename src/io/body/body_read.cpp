@@ -197,6 +197,10 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   return body;
 }
 
+std::vector<std::string> read_stress_set_names(const std::string& path) {
+  return h5::members(open_format(path, kBodyFormat), "/stress/sets");
+}
+
 BodySource read_body_source(const std::string& path) {
   const h5::File file = open_format(path, kBodyFormat);
   BodySource source;

@@ -1,5 +1,6 @@
 #include "elastogear/io/stress_file.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "elastogear/base/file.h"
@@ -15,6 +16,8 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
   const auto n = static_cast<Eigen::Index>(set.node.size());
   const bool fits = set.stress.rows() == 6 * n && set.von_mises.rows() == n && set.rankine.rows() == n &&
                     set.stress.cols() == n_t && set.von_mises.cols() == n_t && set.rankine.cols() == n_t;
+  require(std::all_of(set.node.begin(), set.node.end(), [](int node) { return node >= 0; }), file.path,
+          ": nodes of ", set.body, "/", set.set, " have negative numbers");
   require(set.X.size() == 0 || set.X.cols() == n, file.path, ": ", set.X.cols(), " positions of the ", n,
           " nodes of ", set.body, "/", set.set);
   require(fits, file.path, ": stresses of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
@@ -109,7 +112,8 @@ StressFile read_stress(const std::string& path) {
   for (const std::string& body : h5::members(file, "/"))
     if (is_body(body))
       for (const std::string& set : h5::members(file, "/" + body))
-        history.sets.push_back(read_set(file, body, set, history.time.size()));
+        check(file, history.sets.emplace_back(read_set(file, body, set, history.time.size())),
+              history.time.size());
   return history;
 }
 

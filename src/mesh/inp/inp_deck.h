@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,15 +27,32 @@ struct SurfaceLine {
   int line = 0;
 };
 
+using InpSetName = std::pair<std::string, std::string>;  // keyword and name in capitals
+
 /// Of a deck with several instances, the one that is read, and what belongs to the others and is passed over.
 struct ChosenInstance {
-  std::string name, part;         // in capitals; empty: there is only one
-  std::set<std::string> others;   // in capitals: names of instances
-  std::set<std::string> members;  // in capitals: sets of the assembly that hold other instances' members
+  std::string name, part;               // in capitals; empty: there is only one
+  std::set<std::string> others;         // in capitals: names of instances
+  std::set<InpSetName> own, of_others;  // sets of the assembly with members in the one and in others
   bool in_other_part = false, in_other = false;
 
-  /// Returns whether a set or surface line names a member of another instance: "Part-2-1.Set-2".
-  bool leaves_out(std::string_view field) const;
+  /// Returns whether a line outside of the part names what belongs to other instances alone: one of their
+  /// own sets, "Part-2-1.Set-2", or a set of the assembly. keyword: of the set, "NSET" or "ELSET".
+  bool leaves_out(const std::string& keyword, std::string_view field) const;
+};
+
+/// Where the last definition of each number stands, of a list that grows at its end.
+class Positions {
+ public:
+  std::optional<std::size_t> find(const std::vector<Tag>& numbers, Tag number) {
+    for (; known_ < numbers.size(); ++known_) at_[numbers[known_]] = known_;
+    const auto found = at_.find(number);
+    return found == at_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::unordered_map<Tag, std::size_t> at_;
+  std::size_t known_ = 0;
 };
 
 struct InpDeck : RawMesh {
@@ -42,6 +61,8 @@ struct InpDeck : RawMesh {
   std::map<Tag, CellNodes> collapsed;  // elements that repeat nodes, as the file has them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
+  Positions node_at, cell_at;  // of those that are generated from
+  Tag left_to_generate = 0;    // nodes and elements
   std::vector<SurfaceLine> surface_lines;
   InpMaterials materials;
   std::vector<BoundaryLine> boundary;
@@ -54,14 +75,18 @@ struct InpDeck : RawMesh {
   std::string instance;                                         // its name in capitals
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  // of the instance, unit of the file
   int placement_line = 0;                                       // 0: it is in place
-  bool in_assembly = false, in_instance = false, in_step = false;
+  bool in_part = false, in_assembly = false, in_instance = false, in_step = false;
   int n_steps = 0;
   bool ends_in_a_line = true;
   bool boundary_is_new = false;  // the first step took back what stands above it
-  std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
+  std::set<InpSetName> assembly_sets;
 
   /// Returns whether the present keyword belongs to the assembly itself, not to its instance.
   bool of_assembly() const { return in_assembly && !in_instance; }
+  /// Does the present line name what belongs to other instances than the chosen one? See ChosenInstance.
+  bool leaves_out(const std::string& keyword, std::string_view field) const {
+    return !in_part && !in_instance && chosen.leaves_out(keyword, field);
+  }
   /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
   std::string_view member(std::string_view field) const;
 };

@@ -131,6 +131,7 @@ bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
     if (deck.instance.empty()) in.fail_here("*INSTANCE without NAME=name");
     read_placement(in, deck);
   }
+  if (key.name == "PART" || key.name == "END PART") deck.in_part = key.name == "PART";
   if (key.name == "INSTANCE" || key.name == "END INSTANCE") deck.in_instance = key.name == "INSTANCE";
   if (key.name == "ASSEMBLY") deck.in_assembly = true;
   if (key.name == "END ASSEMBLY") deck.in_assembly = false;
@@ -171,6 +172,22 @@ void read_restraint(InpLines& in, const Keyword& key, InpDeck& deck) {
   read_boundary(in, key, deck.boundary, deck.notes);
 }
 
+void read_masses(InpLines& in, const Keyword& key, InpDeck& deck) {
+  const std::size_t n = deck.others.masses.size();
+  read_mass(in, key, deck.others);
+  if (deck.others.masses.size() == n) return;
+  std::string& members = deck.others.masses.back().members;
+  if (deck.leaves_out("ELSET", members)) return deck.others.masses.pop_back();
+  members = std::string(deck.member(members));
+}
+
+void read_axes(InpLines& in, const Keyword& key, InpDeck& deck) {
+  Transform transform = read_transform(in, key);
+  if (deck.leaves_out("NSET", transform.members)) return;
+  transform.members = std::string(deck.member(transform.members));
+  deck.transforms.push_back(std::move(transform));
+}
+
 // A keyword that the table says is read.
 void read_card(InpLines& in, const Keyword& key, InpDeck& deck) {
   for (const auto& [parameter, value] : key.parameters) {
@@ -185,8 +202,8 @@ void read_card(InpLines& in, const Keyword& key, InpDeck& deck) {
   if (read_structure(in, key, deck)) return;
   if (read_material_card(in, key, deck.materials, deck.notes)) return;
   if (key.name == "BOUNDARY") return read_restraint(in, key, deck);
-  if (key.name == "MASS") return read_mass(in, key, deck.others);
-  if (key.name == "TRANSFORM") return deck.transforms.push_back(read_transform(in, key));
+  if (key.name == "MASS") return read_masses(in, key, deck);
+  if (key.name == "TRANSFORM") return read_axes(in, key, deck);
   read_mesh_card(in, key, deck);
 }
 
@@ -277,18 +294,15 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   InpDeck deck;
   check_end(text.path, text.content, deck);
   deck.chosen = choose_instance(text);
+  deck.left_to_generate = text.most_generated;
   InpLines in(std::move(text));
   while (in.next()) {
     if (!in.at_keyword()) in.fail_here("data before the first keyword");
     read_keyword(in, deck);
   }
   std::erase_if(deck.boundary,
-                [&](const BoundaryLine& line) { return deck.chosen.leaves_out(line.members); });
-  std::erase_if(deck.transforms,
-                [&](const Transform& transform) { return deck.chosen.leaves_out(transform.members); });
+                [&](const BoundaryLine& line) { return deck.chosen.leaves_out("NSET", line.members); });
   for (BoundaryLine& line : deck.boundary) line.members = std::string(deck.member(line.members));
-  for (Transform& transform : deck.transforms)
-    transform.members = std::string(deck.member(transform.members));
   place_instance(in, deck);
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);

@@ -4,25 +4,39 @@
 
 namespace elastogear::mesh {
 
-bool ChosenInstance::leaves_out(std::string_view field) const {
+namespace {
+
+// The set or surface that a keyword line makes.
+InpSetName set_of(const Keyword& key) {
+  return {key.name, key.value(key.name == "SURFACE" ? "NAME" : key.name)};
+}
+
+}  // namespace
+
+bool ChosenInstance::leaves_out(const std::string& keyword, std::string_view field) const {
   if (name.empty()) return false;
   const std::string text = upper(field);
   const std::size_t dot = text.find('.');
-  return members.contains(text) || (dot != text.npos && others.contains(text.substr(0, dot)));
+  const InpSetName set{keyword, text};
+  return (of_others.contains(set) && !own.contains(set)) ||
+         (dot != text.npos && others.contains(text.substr(0, dot)));
 }
 
 ChosenInstance choose_instance(const InpText& text) {
   ChosenInstance chosen;
   if (text.instance.empty()) return chosen;
   std::string all;
+  const std::string wanted = upper(text.instance);
   InpLines in(text);
   while (in.next()) {
     if (!in.at_keyword()) continue;
     const Keyword key = in.keyword();
+    if (key.has("INSTANCE"))
+      (key.value("INSTANCE") == wanted ? chosen.own : chosen.of_others).insert(set_of(key));
     if (key.name != "INSTANCE") continue;
     const std::string name = key.value("NAME");
     all += (all.empty() ? "" : ", ") + name;
-    if (name == upper(text.instance)) {
+    if (name == wanted) {
       chosen.name = name;
       chosen.part = key.value("PART");
     } else {
@@ -41,9 +55,7 @@ bool belongs_to_others(const Keyword& key, ChosenInstance& chosen) {
   const bool others = chosen.in_other_part || chosen.in_other;
   if (key.name == "END PART") chosen.in_other_part = false;
   if (key.name == "END INSTANCE") chosen.in_other = false;
-  if (others || !key.has("INSTANCE") || key.value("INSTANCE") == chosen.name) return others;
-  chosen.members.insert(key.value(key.name == "SURFACE" ? "NAME" : key.name));
-  return true;
+  return others || (key.has("INSTANCE") && key.value("INSTANCE") != chosen.name);
 }
 
 }  // namespace elastogear::mesh

@@ -1,5 +1,6 @@
 // *NSET, *ELSET and *SURFACE of an Abaqus input file.
 #include <algorithm>
+#include <utility>
 
 #include "mesh/inp/inp_deck.h"
 #include "mesh/inp/lines/inp_lines.h"
@@ -19,13 +20,18 @@ void read_range(InpLines& in, const std::string& name, InpSets& sets) {
   sets.add_range(name, number(0), number(1), step, in.number());
 }
 
-// In an assembly a set of the part's name is another set, which one mesh cannot have too.
-void check_scope(const InpLines& in, const Keyword& key, InpDeck& deck, const InpSets& sets) {
-  const std::string name = key.value(key.name);
-  if (!deck.of_assembly()) return;
-  if (sets.spelling(name) && !deck.assembly_sets.contains({key.name, name}))
-    in.fail_here("set '", name, "' of the assembly has the name of a set of the part: rename one of them");
-  deck.assembly_sets.insert({key.name, name});
+// Makes a set that has no members yet. In an assembly a set of the part's name is another set, which one mesh
+// cannot have too.
+void begin_set(const InpLines& in, const Keyword& key, InpDeck& deck, InpSets& sets) {
+  const InpSetName set{key.name, key.value(key.name)};
+  if (deck.of_assembly()) {
+    if (sets.spelling(set.second) && !deck.assembly_sets.contains(set))
+      in.fail_at(key.line, "set '", set.second,
+                 "' of the assembly has the name of a set of the part: rename one of them");
+    deck.assembly_sets.insert(set);
+    deck.chosen.own.insert(set);
+  }
+  sets.add(key.parameters.at(key.name), {}, key.line);
 }
 
 // S1..S6 as 0..5; a blank label means all free sides.
@@ -125,24 +131,35 @@ void read_set(InpLines& in, const Keyword& key, InpDeck& deck) {
   InpSets& sets = key.name == "NSET" ? deck.node_sets : deck.cell_sets;
   if (!key.has(key.name)) in.fail_here("*", key.name, " without ", key.name, "=name");
   if (key.name == "NSET" && key.has("ELSET")) in.fail_here("*NSET from an ELSET is not supported");
-  check_scope(in, key, deck, sets);
   const std::string& name = key.parameters.at(key.name);
-  sets.add(name, {}, key.line);
+  bool begun = false, left_out = false;
+  const auto begin = [&] {
+    if (!std::exchange(begun, true)) begin_set(in, key, deck, sets);
+  };
   while (in.next_data()) {
     if (key.has("GENERATE")) {
+      begin();
       read_range(in, name, sets);
       continue;
     }
     for (std::string_view field : in.fields()) {
-      if (deck.chosen.leaves_out(field)) continue;
-      const std::string_view member = deck.member(field);
-      if (const auto number = parse<Tag>(member)) {
-        sets.add(name, {*number}, in.number());
-      } else if (!member.empty()) {
-        sets.add_set(name, std::string(member), in.number());
+      if (deck.leaves_out(key.name, field)) {
+        left_out = true;
+        continue;
       }
+      const std::string_view member = deck.member(field);
+      if (member.empty()) continue;
+      begin();
+      if (const auto number = parse<Tag>(member))
+        sets.add(name, {*number}, in.number());
+      else
+        sets.add_set(name, std::string(member), in.number());
     }
   }
+  if (left_out && !begun)
+    deck.chosen.of_others.insert({key.name, upper(name)});
+  else
+    begin();
 }
 
 void read_surface(InpLines& in, const Keyword& key, InpDeck& deck) {
@@ -157,7 +174,7 @@ void read_surface(InpLines& in, const Keyword& key, InpDeck& deck) {
   bool left_out = false;
   while (in.next_data()) {
     const auto& fields = in.fields();
-    if (deck.chosen.leaves_out(fields[0])) {
+    if (deck.leaves_out("ELSET", fields[0])) {
       left_out = true;
       continue;
     }
@@ -165,8 +182,9 @@ void read_surface(InpLines& in, const Keyword& key, InpDeck& deck) {
     deck.surface_lines.push_back(
         {name, std::string(deck.member(fields[0])), label, side_of(label), in.number()});
   }
-  const bool has_lines = !deck.surface_lines.empty() && deck.surface_lines.back().name == name;
-  if (left_out && !has_lines) deck.surfaces.spelling.erase(upper(name));
+  if (left_out && std::none_of(deck.surface_lines.begin(), deck.surface_lines.end(),
+                               [&](const SurfaceLine& line) { return line.name == name; }))
+    deck.surfaces.spelling.erase(upper(name));
 }
 
 void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& nodes, const TagTable& cells,

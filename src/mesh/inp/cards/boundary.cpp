@@ -48,12 +48,12 @@ BoundaryLine read_line(InpLines& in, InpNotes& notes) {
   const int last = f.size() > 2 && !f[2].empty() ? in.parse_field<int>(f[2], what) : first;
   const double value = f.size() > 3 && !f[3].empty() ? in.real(f[3], "a displacement") : 0;
   line.directions = directions_between(in, first, last);
-  if (value == 0 && line.directions != 0) return line;
-  if (value == 0)
+  if (line.directions == 0)
     notes.ignore(in, "*BOUNDARY", in.number(), "no displacement");
-  else
-    notes.lose(in, "*BOUNDARY", in.number(), "nodes with a displacement other than 0 are not held");
-  line.directions = 0;
+  else if (value != 0)
+    notes.lose(
+        in, "*BOUNDARY", in.number(),
+        "nodes with a displacement other than 0 are held where they are: the displacement is left out");
   return line;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Abaqus/CalculiX input files: mesh, sets, materials and restraint (docs/file_format.md).
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -24,6 +25,8 @@ struct InpText {
   std::string content;
   std::function<std::string(const std::string& path)> open = read_file;
   std::string instance = {};  ///< which *INSTANCE is read; empty: the only one
+  /// How many nodes and elements *NGEN and *ELGEN may make: a short line can ask for any number.
+  std::int64_t most_generated = 20'000'000;
 };
 Mesh parse_inp(InpText text, double unit_in_m = 1, ReadReport* report = nullptr);
 

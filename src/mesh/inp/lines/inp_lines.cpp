@@ -146,7 +146,8 @@ void InpLines::include_line() {
 void InpLines::include(const Keyword& key) {
   namespace fs = std::filesystem;
   const std::string star = "*" + key.name;
-  if (ahead_) fail_here(star, ", INPUT= ends with a comma: delete it");
+  // The lines behind such a one have been looked at, and their file may have ended.
+  if (ahead_ || open_.empty()) fail_here(star, ", INPUT= ends with a comma: delete it");
   if (open_.size() > kMaxIncludes) fail_here("files include each other more than ", kMaxIncludes, " deep");
   const fs::path name = fs::path(open_.back()->path).parent_path() / key.parameters.at("INPUT");
   const std::string path = name.lexically_normal().string();

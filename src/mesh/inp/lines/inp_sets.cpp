@@ -27,7 +27,8 @@ void InpSets::add(const std::string& name, const std::vector<std::int64_t>& tags
   Set& set = sets_[upper(name)];
   for (std::int64_t tag : tags) {
     // Consecutive numbers are the rule in big files: keep them as one range.
-    if (!set.ranges.empty() && set.ranges.back().step == 1 && set.ranges.back().last == tag - 1) {
+    if (!set.ranges.empty() && set.ranges.back().step == 1 && set.ranges.back().last < tag &&
+        set.ranges.back().last == tag - 1) {
       set.ranges.back().last = tag;
     } else {
       set.ranges.push_back({tag, tag, 1, line});
@@ -64,7 +65,10 @@ struct InpSets::Resolution {
         context.fail_at(range.line, sets.kind_ + " set '" + *sets.spelling(set) + "' names " + sets.kind_ +
                                         " " + std::to_string(tag) + ", which the file does not define");
       if (i >= 0) out.push_back(i);
-      if (range.step > range.last - tag) break;
+      // The difference of two integers may be none.
+      if (static_cast<std::uint64_t>(range.step) >
+          static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(tag))
+        break;
     }
   }
 
