@@ -1,5 +1,6 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
+from misuse_compare import COMPARE
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
@@ -145,4 +146,4 @@ MESH = [
 
 ]
 
-CASES = VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE)
