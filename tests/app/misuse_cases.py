@@ -1,6 +1,7 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
 from misuse_compare import COMPARE
+from misuse_design import DESIGN
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
@@ -146,4 +147,4 @@ MESH = [
 
 ]
 
-CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE)
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN)
