@@ -5,6 +5,7 @@ from misuse_design import DESIGN
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
+from misuse_sweep import SWEEPS
 
 VERBS = [
     Case("unknown verb", r"'reduse'; the nearest one is reduce; the verbs are", "{elastogear} reduse"),
@@ -147,4 +148,4 @@ MESH = [
 
 ]
 
-CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN)
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS)
