@@ -2,6 +2,7 @@
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
 from misuse_compare import COMPARE
 from misuse_design import DESIGN
+from misuse_evaluate import EVALUATE
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
@@ -148,4 +149,4 @@ MESH = [
 
 ]
 
-CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS)
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE)
