@@ -6,6 +6,7 @@ from misuse_evaluate import EVALUATE
 from misuse_life import LIFE
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
+from misuse_run import RUN
 from misuse_simulate import SIMULATE
 from misuse_sweep import SWEEPS
 from misuse_wear import WEAR
@@ -151,4 +152,4 @@ MESH = [
 
 ]
 
-CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE + LIFE + WEAR)
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE + LIFE + WEAR + RUN)
