@@ -9,6 +9,7 @@ from misuse_reduce import REDUCE
 from misuse_run import RUN
 from misuse_simulate import SIMULATE
 from misuse_sweep import SWEEPS
+from misuse_tables import TABLES
 from misuse_wear import WEAR
 
 VERBS = [
@@ -152,4 +153,4 @@ MESH = [
 
 ]
 
-CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE + LIFE + WEAR + RUN)
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE + LIFE + WEAR + RUN + TABLES)
