@@ -4,6 +4,8 @@ import fcntl
 import os
 import shutil
 import signal
+import stat
+import subprocess
 from typing import Callable, Optional
 
 import h5py
@@ -54,6 +56,13 @@ COMMANDS = {
     "compare": "{elastogear} compare stress_full.h5 stress.h5 -output kept",
     "worm": "{elastogear} mesh -drive worm -wheel_teeth 40 -size tiny -element_order 1",
     "mesh": "{elastogear} mesh -part wheel -size tiny -element_order 1 -mesh kept.msh",
+    "design": "{elastogear} mesh gears.yaml",
+    "planets": "{elastogear} mesh planets.yaml",
+    "gears_sweep": "{elastogear} simulate gears.yaml -analysis sweep",
+    "evaluate": "{elastogear} evaluate gears.yaml",
+    "life": "{elastogear} life gears.yaml",
+    "wear": "{elastogear} wear gears.yaml",
+    "run": "{elastogear} run gears.yaml -report none",
 }
 
 
@@ -111,6 +120,21 @@ def continued(bench):
     return "the first run ends with " + output[-300:] if bench.started.returncode != 0 else ""
 
 
+def told_to_quit(command, fault):
+    """A command that was halted at a call of its own and then got SIGQUIT, as by Ctrl-\\: it ends at once."""
+    def begin(bench):
+        running(command, fault)(bench)
+        bench.started.send_signal(signal.SIGQUIT)
+        bench.started.send_signal(signal.SIGCONT)
+        try:
+            bench.started.communicate(timeout=20)
+        except subprocess.TimeoutExpired as hangs:
+            raise Failed("SIGQUIT does not end the run") from hangs
+        if bench.started.returncode == 0:
+            raise Failed("the run does not mind SIGQUIT")
+    return begin
+
+
 def goes_on(name):
     """The halted command ends well and its output is whole."""
     return lambda bench: continued(bench) or readable(name)(bench)
@@ -134,6 +158,55 @@ def opened_to_write(name):
 
 def written(name, text):
     return lambda bench: write(bench.folder, {name: text})
+
+
+def encoded(name, text, encoding):
+    def begin(bench):
+        with open(bench.path(name), "wb") as file:
+            file.write(text.encode(encoding))
+    return begin
+
+
+def reworded(name, old, new):
+    """A text file in which `new` stands for `old`."""
+    def begin(bench):
+        with open(bench.path(name), encoding="utf-8") as file:
+            text = file.read()
+        if old not in text:
+            raise Failed(f"{name}: has no '{old}'")
+        write(bench.folder, {name: text.replace(old, new)})
+    return begin
+
+
+def socketed(name):
+    """A socket that nobody listens to."""
+    return lambda bench: os.mknod(bench.path(name), stat.S_IFSOCK | 0o600)
+
+
+def gone(name):
+    return lambda bench: os.remove(bench.path(name))
+
+
+def foldered(name):
+    """A folder that has the name of a file."""
+    def begin(bench):
+        if os.path.exists(bench.path(name)):
+            os.remove(bench.path(name))
+        os.mkdir(bench.path(name))
+    return begin
+
+
+def foreign(name):
+    """An HDF5 file of another program."""
+    def begin(bench):
+        with h5py.File(bench.path(name), "w") as file:
+            file["x"] = np.arange(3.0)
+    return begin
+
+
+def first(command):
+    """Another command has been given, and has succeeded."""
+    return lambda bench: bench.good(command)
 
 
 def readable(*names):

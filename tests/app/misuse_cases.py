@@ -2,9 +2,17 @@
 import os
 
 from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
+from misuse_compare import COMPARE
+from misuse_design import DESIGN
+from misuse_evaluate import EVALUATE
+from misuse_life import LIFE
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
+from misuse_run import RUN
 from misuse_simulate import SIMULATE
+from misuse_sweep import SWEEPS
+from misuse_tables import TABLES
+from misuse_wear import WEAR
 
 VERBS = [
     Case("unknown verb", r"'reduse'; the nearest one is reduce; the verbs are", "{elastogear} reduse"),
@@ -162,4 +170,4 @@ MESH = [
 
 ]
 
-CASES = VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER
+CASES = (VERBS + OPTIONS + MESH + REDUCE + SIMULATE + RECOVER + COMPARE + DESIGN + SWEEPS + EVALUATE + LIFE + WEAR + RUN + TABLES)

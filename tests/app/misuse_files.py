@@ -1,10 +1,12 @@
 """The folder of inputs that the misuses of misuse_cases.py start from: a bar of three hexahedra of 10 mm in several spellings,
-bodies, results, stresses, and outputs `kept*` that a misuse must leave as they are."""
+bodies, results, stresses, and outputs `kept*` that a misuse must leave as they are; a pair of gears and what every verb makes of it."""
 import os
 import shutil
 
 import h5py
 import numpy as np
+
+import misuse_drives
 
 STEEL_MM = ("*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n"
             "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n*BOUNDARY\nFIX, 1, 3\n")
@@ -110,6 +112,7 @@ def tables(folder):
         "itself.txt": "-modes 3\n-options_file itself.txt\n",
         "prefix.txt": "-prefix_push ts_\n-dt 1e-7\n-prefix_pop\nalias -end -ts_max_time\n-end 1e-6\n"})
     drives(folder)
+    write(folder, misuse_drives.DRIVES)
 
 
 def drives(folder):
@@ -169,6 +172,14 @@ def runs(bench):
         shutil.copy(bench.path(source), bench.path(name))
 
 
+def gears(bench):
+    bench.good("{elastogear} reduce gears.yaml")
+    bench.good("{elastogear} simulate gears.yaml -analysis sweep -torques 50,100 -sweep_positions 2 -output gear_cases.h5")
+    bench.good("{elastogear} simulate gears.yaml -analysis sweep")
+    for verb in ("recover", "evaluate", "life", "wear"):
+        bench.good("{elastogear} " + verb + " gears.yaml")
+
+
 def truncate(folder, source, target):
     with open(os.path.join(folder, source), "rb") as file:
         content = file.read()
@@ -181,7 +192,8 @@ def make(bench):
     tables(bench.folder)
     bodies(bench)
     runs(bench)
-    for source in ("body.h5", "run.h5", "stress.h5", "wheel.msh"):
+    gears(bench)
+    for source in ("body.h5", "run.h5", "stress.h5", "wheel.msh", "gears_result.h5"):
         truncate(bench.folder, source, "truncated_" + source)
     os.makedirs(bench.path("folder"))
     os.symlink("body.h5", bench.path("link.h5"))

@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from misuse_case import again, Case, copied, edited, flipped, full, KILL_AT_SECOND_STATE, NO_SPACE, removed, opened_to_write
+from misuse_case import again, Case, copied, edited, flipped, full, KILL_AT_SECOND_STATE, NO_SPACE, removed, reworded, opened_to_write
 from misuse_files import attribute
 
 RECOVER = [
@@ -63,5 +63,10 @@ RECOVER = [
     Case("result without a dataset", r"run.h5.*bodies/a/q", "{recover}", before=removed("run.h5", "bodies/a/q")),
     Case("result that another program writes", r"run.h5: another program has it open to write", "{recover}", before=opened_to_write("run.h5")),
     Case("result of the future", r"run.h5.*version", "{recover}", before=lambda bench: attribute(bench, "run.h5", "version", 999)),
+    Case("stresses of a sweep after its torque was changed", r"torque: 50 N m there, 60 N m here.*or give recover the option", "{elastogear} recover gears.yaml",
+         before=reworded("gears.yaml", "torque: 50 N m", "torque: 60 N m")),
+    Case("stresses of a sweep at a set that is not there", r"no stress modes at the set 'NOSUCH'; there are: root", "{elastogear} recover gears.yaml -stress_pinion NOSUCH"),
+    Case("stresses of a folder of cases", r"gear_cases: is not a regular file", "{elastogear} recover gears.yaml -result gear_cases"),
+    Case("stresses of an evaluation", r"gears_evaluation.h5: has the format 'elastogear evaluation'", "{elastogear} recover gears.yaml -result gears_evaluation.h5"),
 
 ]
