@@ -34,6 +34,7 @@ class ToothedBody {
   const std::vector<FlankMesh>& meshes() const { return meshes_; }
   const model::Surface& surface() const { return *surface_; }
   double compliance() const { return compliance_; }
+  std::vector<FlankName> flank_names() const;
   /// The nodes of a flank, in the order of its tables.
   const std::vector<int>& nodes(const FlankName& flank) const;
   /// Do flanks, so many teeth apart, have the same mesh, nodes in the same order?

@@ -1,5 +1,5 @@
 #pragma once
-// The flanks that bear in a run, to whose loads its finer bodies are reduced.
+// The flanks that carry load in a run, for which its finer bodies are reduced.
 
 #include <string>
 

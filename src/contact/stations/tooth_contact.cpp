@@ -154,6 +154,12 @@ const FlankMesh& ToothedBody::mesh(const FlankName& flank) const {
   fail("internal: no flank of tooth ", flank.tooth);
 }
 
+std::vector<FlankName> ToothedBody::flank_names() const {
+  std::vector<FlankName> names;
+  for (const FlankMesh& mesh : meshes_) names.push_back(mesh.name);
+  return names;
+}
+
 const std::vector<int>& ToothedBody::nodes(const FlankName& flank) const { return mesh(flank).node; }
 
 bool ToothedBody::repeats(int period) const {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/stations/flank_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/dynamics/station_choice.h"
@@ -39,10 +38,9 @@ contact::SurfaceMotion start(const SystemModel& model, std::size_t b) {
 std::vector<contact::FlankName> stiff_flanks(const model::Flexibility& flexibility,
                                              const contact::ToothedBody& toothed) {
   std::vector<contact::FlankName> stiff;
-  for (const contact::FlankMesh& mesh : toothed.meshes())
-    if (std::ranges::any_of(mesh.node,
-                            [&](int node) { return model::find_loaded(flexibility, node) < 0; }))
-      stiff.push_back(mesh.name);
+  const auto lacks = [&](int node) { return model::find_loaded(flexibility, node) < 0; };
+  for (const contact::FlankName& flank : toothed.flank_names())
+    if (std::ranges::any_of(toothed.nodes(flank), lacks)) stiff.push_back(flank);
   return stiff;
 }
 
