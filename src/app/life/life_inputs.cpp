@@ -140,7 +140,8 @@ Eigen::MatrixXd error_of_run(const Options& options, const std::string& result, 
   const std::string evaluation = drive_stem(options) + "_evaluation.h5";
   if (set.set != "root" || !fs::is_regular_file(evaluation)) return {};
   const double share = root_error_of(evaluation, result, set.body);
-  return share < 0 ? Eigen::MatrixXd() : Eigen::MatrixXd(share * set.von_mises);
+  return share < 0 ? Eigen::MatrixXd()
+                   : Eigen::MatrixXd(share * life::signed_principal(set.stress).cwiseAbs());
 }
 
 std::vector<SweptTorque> named_torques(const Options& options, const LifeSettings& settings) {
@@ -178,8 +179,8 @@ std::vector<SweptStress> read_stresses(const Options& options, const LifeSetting
               name, ": recover it with -stress_", body, " ", name);
       Eigen::MatrixXd error = whole_error(*set);
       if (error.size() == 0 && !at.recovered) error = error_of_run(options, at.file, *set);
-      all.push_back({body, name, set->node, set->X, file.time, life::signed_principal(set->stress),
-                     std::move(error)});
+      all.push_back(
+          {body, name, set->node, set->X, file.time, life::signed_principal(set->stress), std::move(error)});
     }
   return all;
 }
