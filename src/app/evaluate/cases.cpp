@@ -55,7 +55,7 @@ std::vector<Case> read_table(const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / kCasesTable).string();
   require(is_file(path), folder, ": is a folder without ", kCasesTable,
           ", the table that a sweep of several cases leaves; name a result file");
-  std::istringstream in(read_file(path));
+  std::istringstream in(read_text(path));
   std::string line;
   std::getline(in, line);
   const std::vector<std::string> heading = cells_of(line);
@@ -85,6 +85,8 @@ std::vector<Case> read_cases(const std::string& path) {
 }
 
 double number_in_column(const Case& of, const std::string& heading) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown)) require_file(path);
   for (const auto& [name, text] : of.columns)
     if (name == heading || name.starts_with(heading + " [")) {
       const std::string unit = heading_of(of.file, name).unit,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/console/json_text.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/version.h"
 #include "elastogear/io/csv.h"
@@ -228,7 +229,7 @@ void write_summary(const std::string& path, const std::string& drive, const std:
       {"format", "elastogear evaluation summary"}, {"version", 1}, {"program", version()}, {"drive", drive}};
   j["cases"] = nlohmann::ordered_json::array();
   for (const CaseFigures& of : cases) j["cases"].push_back(json_of(of));
-  write_file(path, j.dump(2) + "\n");
+  write_file(path, json_text(j));
 }
 
 }  // namespace elastogear::app
