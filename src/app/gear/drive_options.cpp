@@ -159,6 +159,13 @@ OptionTable whole_drive_table() {
   return table;
 }
 
+void require_torque_of_side(const Options& options, const std::string& name, double torque) {
+  const bool coasts = drive_start(options).coasts;
+  require(torque >= 0, options.label(name), " = ", torque, " N m: would press other flanks together than ",
+          coasts ? "side: coast" : "side: drive", " puts in touch; give ", -torque, " N m with -side ",
+          coasts ? "drive" : "coast");
+}
+
 std::string drive_stem(const Options& options) {
   return options.files().empty() ? "drive" : std::filesystem::path(options.files()[0]).stem().string();
 }

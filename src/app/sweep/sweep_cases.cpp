@@ -212,6 +212,7 @@ SweepCases sweep_cases(const Options& options) {
   read_rows(options, kCaseRows, choices);
   const bool of_torques = sweeps_torques(options);
   if (!of_torques) choices.torques.clear();
+  for (double torque : choices.torques) require_torque_of_side(options, "torques", torque);
   SweepCases all;
   all.variants = read_variants(options, choices.variants);
   all.several = of_torques || options.given("variants");
