@@ -49,7 +49,7 @@ EVALUATE = [
     Case("evaluation in no folder", r"nosuch/kept.h5: there is no folder nosuch", "{evaluate} -output nosuch/kept.h5"),
     Case("evaluation whose summary is a folder", r"'new.json' is no name for a file: a folder has it", "{evaluate} -output new.h5", before=foldered("new.json")),
     Case("evaluation one of whose tables is a folder", r"'new_pinion_wheel.csv' is no name for a file: a folder has it", "{evaluate} -output new.h5",
-         before=foldered("new_pinion_wheel.csv"), due="names of outputs are looked at before the work"),
+         before=foldered("new_pinion_wheel.csv")),
     Case("evaluation on a full disk", NO_SPACE, "{evaluate}", fault=full("gears_evaluation", 4096)),
     Case("evaluation without a body", r"gears_pinion.h5: there is no such file", "{evaluate}", before=gone("gears_pinion.h5")),
     Case("evaluation with bodies exchanged", r"gears_wheel.h5: is not the body 'pinion' of gears_result.h5.*-pinion_file", "{evaluate} -pinion_file gears_wheel.h5 -wheel_file gears_pinion.h5"),

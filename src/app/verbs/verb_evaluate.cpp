@@ -14,6 +14,7 @@
 #include "app/gear/drive_options.h"
 #include "app/options/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
 
 namespace elastogear::app {
@@ -178,27 +179,37 @@ io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures
   return file;
 }
 
+std::vector<NamedTable> tables_of(const EvaluateSettings& settings, const std::vector<CaseFigures>& cases) {
+  const bool several = cases.size() > 1;
+  std::vector<NamedTable> all;
+  const auto add = [&](std::vector<NamedTable> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  };
+  for (const CaseFigures& of : cases) {
+    if (several && !settings.case_tables) break;
+    for (const PairFigures& pair : of.pairs)
+      add(pair_tables(tables_stem(settings, of, several, pair.pair), pair.items));
+    add(bearing_tables(stem_of(settings.output) + (several ? "_" + of.of.name : ""), of));
+  }
+  return all;
+}
+
 void write_all(const Options& options, const EvaluateSettings& settings,
                const std::vector<CaseFigures>& cases) {
-  const bool several = cases.size() > 1;
   const std::string stem = stem_of(settings.output);
+  const std::vector<NamedTable> tables = tables_of(settings, cases);
+  for (const NamedTable& table : tables) place_of_output(table.path);  // an Error before anything is written
   io::write_evaluation(settings.output, file_of(options, cases));
   print_detail("written", settings.output);
   write_summary(stem + ".json", drive_stem(options), cases);
   print_detail("written", stem + ".json");
-  if (several) {
+  if (cases.size() > 1) {
     write_cases_table(stem + "_cases.csv", cases);
     print_item("written", stem + "_cases.csv");
   }
-  std::size_t n = 0;
-  for (const CaseFigures& of : cases) {
-    if (several && !settings.case_tables) break;
-    for (const PairFigures& pair : of.pairs)
-      n += write_pair_tables(tables_stem(settings, of, several, pair.pair), pair.items).size();
-    n += write_bearing_tables(stem + (several ? "_" + of.of.name : ""), of).size();
-  }
+  for (const NamedTable& table : tables) io::write_csv(table.path, table.columns);
   print_item("written", stem + ".json (all numbers, for programs), " + settings.output + ", " +
-                            std::to_string(n) + " tables " + stem + "_*.csv");
+                            std::to_string(tables.size()) + " tables " + stem + "_*.csv");
 }
 
 // Tables are named after the output and cannot be inputs unless these end in .csv or .json.
