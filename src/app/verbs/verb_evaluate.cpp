@@ -77,9 +77,21 @@ void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
   add("tilt", "rad", "tilt of the gear at the bearing", bearing.tilt);
 }
 
+// Without its torque means: next to nothing against that of the case.
+constexpr double kLeastTorque = 0.01;
+
+void require_unloaded(const Options& options, const Case& of) {
+  const std::string file = options.text("unloaded");
+  const double torque = torque_of_run(of.file), unloaded = torque_of_run(file);
+  require(!(std::abs(unloaded) > kLeastTorque * std::abs(torque)), options.label("unloaded"), " = '", file,
+          "': is a run under ", unloaded, " N m, ", of.file, " one under ", torque,
+          " N m: name one under at most ", 100 * kLeastTorque, " % of the torque");
+}
+
 Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
                         const std::map<std::string, Eigen::VectorXd>& unloaded) {
   CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
+  if (!unloaded.empty()) require_unloaded(of.options, of_case);
   Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
   for (const NamedPair& pair : run.pairs) {
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
@@ -141,7 +153,6 @@ void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
 // Adds the secant stiffness of drives with modified flanks, which needs the transmission error without load:
 // it is that of a case whose torque is next to nothing.
 void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
-  constexpr double kLeastTorque = 0.01;  // of the torque
   const Evaluated* least = other_load(cases, of, [](double, double other) { return std::abs(other); });
   const double torque = std::abs(number_in_column(of.figures.of, "torque"));
   if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kLeastTorque * torque) return;
