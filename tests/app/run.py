@@ -80,6 +80,8 @@ def accurate():
     assert re.search(r"orders of the mesh 1: [\d.]+ \+- [\d.]+", said), said
     assert pair["teeth"]["largest_share"]["value"] == 1 and "largest_share_mesh_error" not in pair["teeth"], pair["teeth"]
     assert made(run("accurate.yaml")) == (False, False)
+    life_with_error({of: pair["root"][of]["largest_tension_mesh_error"]["value"] / pair["root"][of]["largest_tension"]["value"]
+                     for of in ("pinion", "wheel")})
     # A finer mesh where that is asked; the coarser ones are there.
     finer = run("accurate.yaml", "-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))
     assert "1.5/accurate_evaluation.h5" in run("accurate.yaml", "-accuracy", "60 %") and "2 times" in finer, finer
@@ -90,6 +92,20 @@ def accurate():
     refused = subprocess.run([ELASTOGEAR, "simulate", "accurate.yaml", "-analysis", "dynamic", "-ts_max_time", "1e-6"],
                              capture_output=True, text=True, check=False)
     assert refused.returncode != 0 and "has no modes" in refused.stderr, refused.stderr
+
+
+def life_with_error(share):
+    """Bodies of a run tell no error of their mesh: a life takes that of the largest tension. Damage goes with the stress to the fifth."""
+    strength = ("-sn_knee_stress", "1 MPa", "-mean_stress", "none", "-duty_cycle", "50 N m, 1e5", "-damage_field", "false")
+    said = run("life", "accurate.yaml", *strength)
+    assert "is not estimated" not in said, said
+    for of in figures("accurate_life.json")["sets"]:
+        times = of["damage_with_error"] / of["damage"]
+        assert abs(times / (1 + share[of["body"]])**5 - 1) < 1e-6, (of["body"], times, share)
+    # The evaluation is not of another result.
+    run("simulate", "accurate.yaml", "-analysis", "sweep", "-refinement", "1.5", "-modes", "0", "-output", "other.h5")
+    said = run("life", "accurate.yaml", *strength, "-files", "other.h5", "-output", "other_life.h5")
+    assert "is not estimated" in said, said
 
 
 def page():

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "elastogear/evaluation/grid_convergence.h"
+#include "elastogear/io/describe.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -189,11 +193,14 @@ void add_mesh_errors(const std::vector<std::string>& files, double refinement,
     }
 }
 
-double root_error(const std::string& file) {
-  const io::EvaluationFile evaluation = io::read_evaluation(file);
+namespace {
+
+// over: takes paths of largest tensions.
+double root_error_over(const io::EvaluationFile& evaluation,
+                       const std::function<bool(const std::string&)>& over) {
   std::map<std::string, const EvaluationItem*> largest;  // by case and gear, of all its pairs
   for (const EvaluationItem& item : evaluation.items) {
-    if (!item.path.ends_with(kRootTension)) continue;
+    if (!item.path.ends_with(kRootTension) || !over(item.path)) continue;
     const EvaluationItem*& known =
         largest[item.path.substr(0, item.path.find('/')) + item.path.substr(item.path.find("/root/"))];
     if (!known || item.value[0] > known->value[0]) known = &item;
@@ -206,6 +213,43 @@ double root_error(const std::string& file) {
     worst = std::max(worst, error / item->value[0]);
   }
   return worst;
+}
+
+// Are the bodies of a result those of the evaluation's results?
+bool has_bodies_of(const io::EvaluationFile& evaluation, const std::string& result) {
+  const auto of_result = io::read_provenance(result);
+  return std::ranges::all_of(of_result, [&](const auto& entry) {
+    if (!entry.first.starts_with(model::identity_key(""))) return true;
+    const auto known = evaluation.provenance.find(entry.first);
+    return known != evaluation.provenance.end() && known->second == entry.second;
+  });
+}
+
+// The case that was read off a result; empty: there is none.
+std::string case_of(const io::EvaluationFile& evaluation, const std::string& result) {
+  constexpr const char* kResult = "/result";
+  for (const EvaluationItem& item : evaluation.items) {
+    std::error_code error;
+    if (item.path.ends_with(kResult) && item.words.size() == 1 &&
+        std::filesystem::equivalent(item.words[0], result, error))
+      return item.path.substr(0, item.path.size() - std::strlen(kResult));
+  }
+  return "";
+}
+
+}  // namespace
+
+double root_error(const std::string& file) {
+  return root_error_over(io::read_evaluation(file), [](const std::string&) { return true; });
+}
+
+double root_error_of(const std::string& file, const std::string& result, const std::string& gear) {
+  const io::EvaluationFile evaluation = io::read_evaluation(file);
+  const std::string of = case_of(evaluation, result);
+  if (of.empty() || !has_bodies_of(evaluation, result)) return -1;
+  return root_error_over(evaluation, [&](const std::string& path) {
+    return path.starts_with(of + "/") && path.ends_with("/root/" + gear + kRootTension);
+  });
 }
 
 }  // namespace elastogear::app

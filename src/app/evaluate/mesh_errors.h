@@ -19,5 +19,8 @@ void add_mesh_errors(const std::vector<std::string>& coarser, double refinement,
 /// The largest estimated error of the largest tension at the root of a gear, as a share of it, over all cases
 /// and gears of an evaluation file; < 0: there is none.
 double root_error(const std::string& evaluation);
+/// The same of one gear of the case that was read off this result, whose bodies are those of the evaluation's
+/// results; < 0 where the evaluation is of others.
+double root_error_of(const std::string& evaluation, const std::string& result, const std::string& gear);
 
 }  // namespace elastogear::app

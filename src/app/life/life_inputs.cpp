@@ -6,8 +6,10 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "app/evaluate/cases.h"
+#include "app/evaluate/mesh_errors.h"
 #include "app/options/units.h"
 #include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
@@ -135,6 +137,16 @@ Eigen::MatrixXd whole_error(const io::StressSet& set) {
   return error;
 }
 
+// The error of the largest tension at a gear's root that `run` has found from coarser meshes, as a share of
+// the stress everywhere; empty where no evaluation is of this result.
+Eigen::MatrixXd error_of_run(const Options& options, const std::string& result, const io::StressSet& set) {
+  const std::string evaluation = drive_stem(options) + "_evaluation.h5";
+  if (set.set != "root" || !fs::is_regular_file(evaluation)) return {};
+  const double share = root_error_of(evaluation, result, set.body);
+  return share < 0 ? Eigen::MatrixXd()
+                   : Eigen::MatrixXd(share * life::signed_principal(set.stress).cwiseAbs());
+}
+
 std::vector<SweptTorque> named_torques(const Options& options, const LifeSettings& settings) {
   std::vector<SweptTorque> all;
   for (std::size_t i = 0; i < settings.files.size(); ++i)
@@ -168,7 +180,8 @@ std::vector<SweptTorque> swept_torques(const Options& options, const LifeSetting
   return all;
 }
 
-std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at) {
+std::vector<SweptStress> read_stresses(const Options& options, const LifeSettings& settings,
+                                       const SweptTorque& at) {
   const auto [file, rigid] = at.recovered ? Stresses{io::read_stress(at.file)} : recovered(settings, at.file);
   std::vector<SweptStress> all;
   for (const auto& [body, sets] : settings.sets)
@@ -179,8 +192,10 @@ std::vector<SweptStress> read_stresses(const LifeSettings& settings, const Swept
                        [&, &body = body](const io::StressSet& s) { return s.body == body && s.set == name; });
       require(set != file.sets.end() && set->X.cols() > 0, at.file, ": holds no stresses of ", body, " ",
               name, ": recover it with -stress_", body, " ", name);
+      Eigen::MatrixXd error = whole_error(*set);
+      if (error.size() == 0 && !at.recovered) error = error_of_run(options, at.file, *set);
       all.push_back(
-          {body, name, set->node, set->X, file.time, life::signed_principal(set->stress), whole_error(*set)});
+          {body, name, set->node, set->X, file.time, life::signed_principal(set->stress), std::move(error)});
     }
   return all;
 }

@@ -31,9 +31,11 @@ struct SweptStress {
   Eigen::MatrixXd error = {};  ///< n x n_t, Pa, estimated by reduction, mesh and contact; or empty
 };
 
-/// The node sets that are wanted of bodies that are not rigid in the run, at one torque. Error when the file
-/// does not hold them.
-std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at);
+/// The node sets that are wanted of bodies that are not rigid in the run, at one torque. Bodies without modes
+/// do not tell the error of their mesh: that of their roots is then the one that `run` has found, if this is
+/// its result. Error when the file does not hold them.
+std::vector<SweptStress> read_stresses(const Options& options, const LifeSettings& settings,
+                                       const SweptTorque& at);
 
 /// The member's body file: that of the options, or of the result. Empty: there is none.
 std::string body_file_of(const Options& options, const DriveMember& member, const SweptTorque& at);

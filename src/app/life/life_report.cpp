@@ -176,8 +176,8 @@ void print_set(const LifeOfSet& one, const Total& sum) {
   const double damage = largest_damage(one);
   print_item(one.set.body + " " + one.set.set,
              "largest damage " + with_unit(damage, "in a duty cycle") + ", " + place(one));
-  print_item("", "largest stress " + with_unit(1e-6 * one.largest, "MPa") +
-                     ", fully reversed amplitude there " +
+  print_item("", "largest stress there " + with_unit(1e-6 * one.largest, "MPa") +
+                     ", fully reversed amplitude " +
                      with_unit(1e-6 * one.set.amplitude[one.set.critical], "MPa"));
   print_item("", "life at the stress " + life_text(damage, sum));
   if (const std::optional<double> with_error = largest_with_error(one))

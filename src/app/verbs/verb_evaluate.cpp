@@ -16,6 +16,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
+#include "elastogear/io/describe.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -181,6 +183,8 @@ io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures
     }
   };
   for (const CaseFigures& of : cases) {
+    for (const auto& [key, identity] : io::read_provenance(of.of.file))
+      if (key.starts_with(model::identity_key(""))) file.provenance[key] = identity;
     file.items.push_back({of.of.name + "/result", "1", "result file of the case", {1}, {}, {of.of.file}});
     add_case_inputs(of.of, file);
     for (const PairFigures& pair : of.pairs) add(of.of.name + "/" + pair.pair, pair.items);

@@ -76,7 +76,7 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
   std::vector<SetHistory> all;
   for (const SweptTorque& at : swept) {
     report(progress, "stresses", static_cast<double>(&at - swept.data()) / static_cast<double>(swept.size()));
-    std::vector<SweptStress> read = read_stresses(settings, at);
+    std::vector<SweptStress> read = read_stresses(options, settings, at);
     if (&at == swept.data()) all.resize(read.size());
     require(read.size() == all.size(), at.file, ": other gears are rigid there than in ", swept.front().file);
     for (std::size_t i = 0; i < read.size(); ++i) {
