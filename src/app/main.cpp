@@ -131,7 +131,14 @@ int main(int argc, char** argv) {
   const app::CommandLine line = app::parse_command_line(argc, argv);
   app::report_closed_pipes(line.verb);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
-  if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;
+  if (line.verb.empty()) {
+    app::print_usage(verbs);
+    if (argc > 1 && !line.help)
+      std::fprintf(stderr,
+                   "\nelastogear: error: '%s' stands where the verb, or a drive file, must come first\n",
+                   printable(argv[1]).c_str());
+    return line.help ? 0 : 1;
+  }
   if (line.help) {
     for (const app::Verb& verb : verbs)
       if (verb.name == line.verb) return app::print_help(verb, line.help_about);

@@ -23,11 +23,25 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // as many as Linux follows
 
-void require_regular(const std::string& path) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  require(fs::exists(status), path, ": there is no such file");
-  require(fs::is_regular_file(status), path, ": is not a regular file");
+constexpr std::string_view kMark = "\xEF\xBB\xBF";              // of text in UTF-8
+constexpr std::string_view kWide[] = {"\xFF\xFE", "\xFE\xFF"};  // of text in UTF-16
+
+void refuse_wide(const std::string& path, std::string_view start) {
+  for (const std::string_view mark : kWide)
+    require(!start.starts_with(mark), path, ", line 1: is text in UTF-16; save it as UTF-8");
+}
+
+std::string_view kind_of(const fs::file_status& status) {
+  switch (status.type()) {
+    case fs::file_type::directory:
+      return "a folder";
+    case fs::file_type::fifo:
+      return "a pipe";
+    case fs::file_type::socket:
+      return "a socket";
+    default:
+      return "a device";
+  }
 }
 
 Stream open(const std::string& path) {
@@ -99,23 +113,42 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
+void require_file(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  require(fs::exists(status), path, ": there is no such file");
+  require(fs::is_regular_file(status), path, ": is not a regular file but ", kind_of(status));
+}
+
 std::ifstream open_input(const std::string& path) {
-  require_regular(path);
+  require_file(path);
   std::ifstream in(path, std::ios::binary);
   require(in.good(), path, ": cannot be opened: ", std::strerror(errno));
+  std::string start(kMark.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  refuse_wide(path, start);
+  in.clear();
+  in.seekg(start == kMark ? static_cast<std::streamoff>(kMark.size()) : 0);
   return in;
 }
 
 std::string read_file(const std::string& path) {
   std::error_code error;
-  require_regular(path);
+  require_file(path);
   const auto size = fs::file_size(path, error);
   require(!error, path, ": cannot be read: ", error.message());
   const Stream file = open(path);
   std::string content(size, '\0');
   require(std::fread(content.data(), 1, size, file.get()) == size, path,
           ": cannot be read: ", std::strerror(errno));
+  if (content.starts_with(kMark)) content.erase(0, kMark.size());
   return content;
+}
+
+std::string read_text(const std::string& path) {
+  std::string text = read_file(path);
+  refuse_wide(path, text);
+  return text;
 }
 
 std::string place_of_output(const std::string& path) {

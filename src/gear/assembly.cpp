@@ -26,7 +26,8 @@ void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& toot
 void check_counts(const std::string& body, std::initializer_list<int> counts, double cells) {
   for (int count : counts)
     require(count >= 1 && count <= kMaxCount, "the ", body, "'s element counts must be 1 to ", kMaxCount,
-            ", one is ", count);
+            ", one is ", count,
+            count > kMaxCount ? "; a coarser size, a smaller refinement or a narrower face has fewer" : "");
   require(cells <= kMaxCells, "the ", body, "'s counts ask for about ", cells, " cells, at most ", kMaxCells,
           " are allowed");
 }

@@ -83,8 +83,10 @@ void check(const MeanStress& mean_stress) {
 
 double equivalent_amplitude(const MeanStress& mean_stress, double amplitude, double mean) {
   if (amplitude <= 0 || mean_stress.kind == MeanStress::Kind::none) return amplitude;
-  if (mean_stress.kind == MeanStress::Kind::fkm)
-    return amplitude / fkm_factor(mean_stress.sensitivity, amplitude, mean);
+  if (mean_stress.kind == MeanStress::Kind::fkm) {
+    const bool breaks = mean_stress.tensile_strength > 0 && mean >= mean_stress.tensile_strength;
+    return breaks ? kInfinite : amplitude / fkm_factor(mean_stress.sensitivity, amplitude, mean);
+  }
   const double left = 1 - std::max(0.0, mean) / mean_stress.tensile_strength;
   return left > 0 ? amplitude / left : kInfinite;
 }

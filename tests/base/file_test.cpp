@@ -85,6 +85,25 @@ TEST_F(File, follows_no_link_under_its_temporary_name) {
   EXPECT_EQ(read_file(path), "of another");
 }
 
+TEST_F(File, is_read_behind_the_mark_of_utf_8) {
+  write_file(path, "\xEF\xBB\xBFtext");
+  EXPECT_EQ(read_file(path), "text");
+  EXPECT_EQ(read_text(path), "text");
+  std::string word;
+  open_input(path) >> word;
+  EXPECT_EQ(word, "text");
+  write_file(path, "a");  // shorter than the mark
+  open_input(path) >> word;
+  EXPECT_EQ(word, "a");
+}
+
+TEST_F(File, of_text_is_refused_in_utf_16) {
+  write_file(path, std::string("\xFF\xFEt\0", 4));
+  EXPECT_THROW(read_text(path), Error);
+  EXPECT_THROW(open_input(path), Error);
+  EXPECT_EQ(read_file(path).size(), 4u);
+}
+
 TEST_F(File, names_the_path_that_cannot_be_used) {
   EXPECT_THROW(read_file(path), Error);
   EXPECT_THROW(read_file(folder.string()), Error);

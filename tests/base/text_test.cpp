@@ -17,5 +17,14 @@ TEST(Printable, leaves_text_as_it_is) {
   EXPECT_EQ(printable(text), text);
 }
 
+TEST(Utf8, is_known_by_the_bytes_of_its_letters) {
+  EXPECT_TRUE(is_utf8("plain"));
+  EXPECT_TRUE(is_utf8("h\xC3\xB6her \xE2\x82\xAC \xF0\x9F\x94\xA7"));
+  EXPECT_FALSE(is_utf8("h\xF6her"));        // Latin-1
+  EXPECT_FALSE(is_utf8("h\xC3"));           // cut off
+  EXPECT_FALSE(is_utf8("\xE2\x82 after"));  // cut off within
+  EXPECT_FALSE(is_utf8("\xC0\xAF"));        // longer than it need be
+}
+
 }  // namespace
 }  // namespace elastogear::text_test

@@ -70,6 +70,12 @@ TEST(Fkm, follows_haighs_diagram_over_its_four_ranges) {
   EXPECT_NEAR(beyond[1] / beyond[0], -M / 3, 1e-12);
 }
 
+TEST(Fkm, breaks_where_the_mean_reaches_the_tensile_strength) {
+  const MeanStress fkm{MeanStress::Kind::fkm, 800 * kMPa, 0.18};
+  EXPECT_TRUE(std::isfinite(equivalent_amplitude(fkm, 100 * kMPa, 799 * kMPa)));
+  EXPECT_EQ(equivalent_amplitude(fkm, 100 * kMPa, 800 * kMPa), INFINITY);
+}
+
 TEST(Fkm, sensitivity_of_steel_grows_with_its_strength) {
   EXPECT_NEAR(fkm_sensitivity_of_steel(1000 * kMPa), 0.25, 1e-12);
   EXPECT_EQ(fkm_sensitivity_of_steel(200 * kMPa), 0);

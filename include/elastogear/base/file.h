@@ -32,11 +32,17 @@ std::string place_of_output(const std::string& path);
 /// changes; what has the new name goes. WriteFailure when it cannot.
 void put_in_place(const std::string& file, const std::string& path);
 
-/// A regular file, to be read from its beginning; Error naming the path and the reason. Devices and pipes are
-/// refused: they may have no end.
+/// Error naming the path, and what has it in place of a regular file: nothing, a folder, a device, a pipe or
+/// a socket. The latter may have no end.
+void require_file(const std::string& path);
+
+/// A file of text, to be read from its beginning, behind the byte order mark of UTF-8 that some programs
+/// write there; Error naming the path and the reason, also of text in UTF-16.
 std::ifstream open_input(const std::string& path);
-/// The whole content of a regular file; errors as above.
+/// The whole content of a file without that mark.
 std::string read_file(const std::string& path);
+/// The same of a file of text; Error for text in UTF-16.
+std::string read_text(const std::string& path);
 
 /// A file that is written under a temporary name beside `path`, or beside the file that the link `path` leads
 /// to, and takes its place by commit(), so that a killed or failed run leaves the old file or none. Destroyed

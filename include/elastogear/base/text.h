@@ -27,6 +27,9 @@ std::string join_keys(const Map& map) {
   return join(map, ", ", [](const auto& entry) { return entry.first; });
 }
 
+/// Is the text in UTF-8?
+bool is_utf8(std::string_view text);
+
 /// The text with its control characters written out, "\x1b", but for ends of lines and tabs: a terminal would
 /// obey those of files that others wrote. UTF-8 stays.
 std::string printable(std::string_view text);

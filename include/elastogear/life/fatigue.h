@@ -42,8 +42,9 @@ double cycles_to_failure(const SnCurve& curve, double amplitude);
 struct MeanStress {
   enum class Kind { none, goodman, fkm };
   Kind kind = Kind::none;
-  double tensile_strength = 0;  ///< R_m, Pa, of Goodman's line
-  double sensitivity = 0;       ///< M of FKM, 0 <= M < 1
+  double tensile_strength =
+      0;  ///< R_m, Pa, of Goodman's line, and the most that a mean may be by FKM; 0: not given
+  double sensitivity = 0;  ///< M of FKM, 0 <= M < 1
 };
 
 /// M of rolled or forged steel by the FKM guideline: 0.35 R_m / (1000 MPa) - 0.1, at least 0.
@@ -53,7 +54,7 @@ double fkm_sensitivity_of_steel(double tensile_strength);
 void check(const MeanStress& mean_stress);
 
 /// The fully reversed amplitude that does the damage of this amplitude about this mean, Pa; infinite where
-/// the mean reaches the tensile strength of Goodman's line. Goodman takes no credit for compression.
+/// the mean reaches the tensile strength. Goodman takes no credit for compression.
 double equivalent_amplitude(const MeanStress& mean_stress, double amplitude, double mean);
 
 /// The same curve for fully reversed stress, ratio -1.

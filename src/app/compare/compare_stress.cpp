@@ -75,10 +75,24 @@ std::vector<Eigen::Index> shown_nodes(const CompareSettings& settings, const Mat
   const auto wanted = settings.node.find(set.name.substr(0, set.name.find(' ')));
   if (wanted == settings.node.end()) return nodes;
   for (const double number : wanted->second) {
-    const auto found = std::find(set.node.begin(), set.node.end(), static_cast<int>(number));
+    const auto found = std::find(set.node.begin(), set.node.end(), number);
     if (found != set.node.end()) nodes.push_back(found - set.node.begin());
   }
   return nodes;
+}
+
+// A node may be in one of several sets of its body.
+void require_nodes(const Options& options, const CompareSettings& settings,
+                   const std::vector<Matched>& sets) {
+  for (const auto& [body, numbers] : settings.node)
+    for (const double number : numbers) {
+      const bool found = std::any_of(sets.begin(), sets.end(), [&, &body = body](const Matched& set) {
+        return set.name.starts_with(body + " ") &&
+               std::find(set.node.begin(), set.node.end(), number) != set.node.end();
+      });
+      require(found, options.label("node_" + body), " = ", number, ": the reference has no such node of ",
+              body, " in the sets that are compared");
+    }
 }
 
 Table stress_table(const std::string& title) {
@@ -157,6 +171,7 @@ std::vector<Table> compare_stresses(const Options& options, const std::string& p
   const CompareSettings settings = compare_settings(options);
   const std::vector<Matched> sets = matched_sets(settings, file, reference);
   require(!sets.empty(), path, " and ", reference_path, " have no stresses at the same set of the same body");
+  require_nodes(options, settings, sets);
   std::vector<Table> tables = {stress_table("Deviation of the stress, of each measure"),
                                stress_table("Deviation of the stress, of the reference's von Mises stress")};
   Table signals{"Stress over time",

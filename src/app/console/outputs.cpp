@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "elastogear/base/collectively.h"
@@ -41,6 +42,13 @@ std::vector<Input> inputs(const Options& options, const std::vector<Outputs>& ou
     for (const std::string& word : words) all.push_back({word, "reads it, option -" + name});
   }
   return all;
+}
+
+// Of a file that need not exist.
+std::string whole_path(const std::string& file) {
+  std::error_code unknown;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(place_of_output(file)), unknown)
+      .string();
 }
 
 // Is the open file still the one under this name, or has its last owner removed it?
@@ -79,6 +87,19 @@ void sign(int file) {
 
 }  // namespace
 
+void require_different(const Options& options, const std::vector<Outputs>& outputs) {
+  std::map<std::string, std::string> options_of;  // by path
+  for (const Outputs& output : outputs)
+    for (const std::string& file : output.files) {
+      const auto [other, is_new] = options_of.emplace(whole_path(file), output.option);
+      if (is_new) continue;
+      require(other->second != output.option, options.label(output.option), ": '", file,
+              "' is the name of two files that this run writes; give another one");
+      fail(options.label(output.option), ": '", file, "' is the file of ", options.label(other->second),
+           ", too; give them two names");
+    }
+}
+
 void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
                     const std::vector<std::string>& data) {
   const std::vector<Input> all = inputs(options, outputs, data);
@@ -89,6 +110,7 @@ void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
         require(!same_file(file, input.file), options.label(output.option), ": would overwrite ", file,
                 input.file == file ? "" : ", the same file as " + input.file, "; this run ", input.whence);
     }
+  require_different(options, outputs);
 }
 
 OutputLock::OutputLock(const std::string& path, MPI_Comm comm) {

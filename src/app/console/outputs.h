@@ -17,11 +17,15 @@ struct Outputs {
   std::vector<std::string> files;
 };
 
-/// Before the work starts: throws Error when one of the outputs cannot be written where it is to be, and when
-/// it is a file that the run reads, also by another spelling or a link: those the options were read from,
-/// those that the verb's other options name, and `data`.
+/// Before the work starts: throws Error when one of the outputs cannot be written where it is to be, when two
+/// of them are one file, and when one is a file that the run reads, also by another spelling or a link: those
+/// the options were read from, those that the verb's other options name, and `data`.
 void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
                     const std::vector<std::string>& data = {});
+
+/// Throws Error when two of the outputs are one file, also by different paths: the second would take the
+/// place of the first.
+void require_different(const Options& options, const std::vector<Outputs>& outputs);
 
 /// While it lives no other run can hold the lock of the same output. The lock is on the file `path`.lock,
 /// which is removed at the end; left by a run that was killed, it is free. A link or a file of the user's

@@ -13,6 +13,7 @@ namespace {
 // From soft rubber to diamond; from cork to osmium.
 constexpr double kSoftest = 1e6, kStiffest = 2e12;         // Pa
 constexpr double kLightest = 50, kHeaviest = 30e3;         // kg/m^3
+constexpr double kWeakest = 1e6, kStrongest = 2e10;        // Pa, that a material endures
 constexpr double kLargestBody = 10, kSmallestBody = 1e-4;  // m, a mesh's longest side
 
 // Poisson's ratios from which frequencies of a block that is held at one end are 2 % and more too high
@@ -114,6 +115,20 @@ void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool f
     if (m.rho < kLightest || m.rho > kHeaviest)
       warn(region, from_mesh, "rho", with_unit(m.rho, "kg/m^3"), density_meant(m.rho));
   }
+}
+
+void warn_of_density(const std::string& option, double density) {
+  if (density >= kLightest && density <= kHeaviest) return;
+  print_item("warning", option + " = " + with_unit(density, "kg/m^3") +
+                            " is no density of a gear's material" + density_meant(density));
+}
+
+void warn_of_strength(const std::string& option, double stress) {
+  if (stress >= kWeakest && stress <= kStrongest) return;
+  const double if_mega = 1e6 * stress;
+  const bool fits = if_mega >= kWeakest && if_mega <= kStrongest;
+  print_item("warning", option + " = " + with_unit(stress, "Pa") + " is no strength of a gear's material" +
+                            (fits ? "; MPa meant? Then give " + with_unit(if_mega, "Pa") : ""));
 }
 
 void warn_of_shapes(const mesh::Mesh& mesh, const std::vector<std::int64_t>& cell_number) {

@@ -16,6 +16,13 @@ namespace elastogear::app {
 /// from_mesh: the mesh file gives them, else options material_...
 void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool from_mesh);
 
+/// A density, kg/m^3, that no material of a gear has, and the unit that it looks like. option: that gives it,
+/// "option -density".
+void warn_of_density(const std::string& option, double density);
+
+/// The same of a strength or an endured stress, Pa.
+void warn_of_strength(const std::string& option, double stress);
+
 /// Cells that lock in materials of nearly no compressibility, at once or when they have relaxed, and what to
 /// take instead.
 void warn_of_locking(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,

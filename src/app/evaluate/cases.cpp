@@ -1,8 +1,10 @@
 #include "app/evaluate/cases.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -10,6 +12,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
+#include "elastogear/io/describe.h"
 
 namespace elastogear::app {
 namespace {
@@ -55,7 +58,7 @@ std::vector<Case> read_table(const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / kCasesTable).string();
   require(is_file(path), folder, ": is a folder without ", kCasesTable,
           ", the table that a sweep of several cases leaves; name a result file");
-  std::istringstream in(read_file(path));
+  std::istringstream in(read_text(path));
   std::string line;
   std::getline(in, line);
   const std::vector<std::string> heading = cells_of(line);
@@ -63,13 +66,16 @@ std::vector<Case> read_table(const std::string& folder) {
     require(std::count(heading.begin(), heading.end(), needed) == 1, path,
             ": its heading must have one column '", needed, "', it is '", line, "'");
   std::vector<Case> cases;
-  std::set<std::string> names;
+  std::set<std::string> names, files;
   for (int number = 2; std::getline(in, line); ++number) {
     if (line.empty() || line == "\r") continue;
     const std::string where = path + ", line " + std::to_string(number);
     const Case row = case_of_row(heading, cells_of(line), folder, where);
     require(names.insert(row.name).second, where, ": the case ", row.name, " is there twice");
-    if (number_in_column(row, kPositions) != 0) cases.push_back(row);
+    if (number_in_column(row, kPositions) == 0) continue;
+    require_torque_of_run(where, row.file, number_in_column(row, "torque"));
+    require(files.insert(row.file).second, where, ": ", row.file, " is the file of another case, too");
+    cases.push_back(row);
   }
   require(!cases.empty(), path, ": holds no cases with positions");
   return cases;
@@ -79,9 +85,25 @@ std::vector<Case> read_table(const std::string& folder) {
 
 std::vector<Case> read_cases(const std::string& path) {
   if (std::filesystem::is_directory(path)) return read_table(path);
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown)) require_file(path);
   require(is_file(path), path,
           ": there is no such result; run 'elastogear simulate' with analysis: sweep, or name it by -result");
   return {{std::filesystem::path(path).stem().string(), path}};
+}
+
+double torque_of_run(const std::string& file) {
+  const auto provenance = io::read_provenance(file);
+  const auto torque = provenance.find("option_torque");
+  const auto value = torque == provenance.end() ? std::nullopt : parse<double>(torque->second);
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+void require_torque_of_run(const std::string& where, const std::string& file, double torque) {
+  constexpr double kRounding = 1e-9;  // tables have twelve digits
+  const double of_run = torque_of_run(file);
+  require(!(std::abs(torque - of_run) > kRounding * std::abs(of_run)), where, ": says ", torque, " N m, ",
+          file, " is of a run under ", of_run, " N m: put the table right, or sweep again");
 }
 
 double number_in_column(const Case& of, const std::string& heading) {

@@ -22,4 +22,10 @@ std::vector<Case> read_cases(const std::string& path);
 /// where it holds none.
 double number_in_column(const Case& of, const std::string& heading);
 
+/// N m on the first gear in the run that a result file is of, as its options say; NaN where they do not.
+double torque_of_run(const std::string& file);
+
+/// Throws Error that begins with `where` when a result file is of a run under another torque (N m).
+void require_torque_of_run(const std::string& where, const std::string& file, double torque);
+
 }  // namespace elastogear::app

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/console/json_text.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/version.h"
-#include "elastogear/io/csv.h"
 
 namespace elastogear::app {
 namespace {
@@ -149,31 +149,29 @@ const EvaluationItem* find_item(const Items& items, const std::string& path) {
   return found == items.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> write_pair_tables(const std::string& stem, const Items& items) {
-  std::vector<std::string> written;
-  const auto write = [&](const std::string& name, const std::vector<CsvColumn>& columns) {
-    if (columns.empty()) return;
-    written.push_back(stem + name + ".csv");
-    io::write_csv(written.back(), columns);
+std::vector<NamedTable> pair_tables(const std::string& stem, const Items& items) {
+  std::vector<NamedTable> tables;
+  const auto add = [&](const std::string& name, std::vector<CsvColumn> columns) {
+    if (!columns.empty()) tables.push_back({stem + name + ".csv", std::move(columns)});
   };
-  write("", over_roll(items));
-  write("_orders", of_group(items, "transmission_error", {"order", "amplitude", "phase"}));
-  write("_force_orders", of_group(items, "force", {"order", "amplitude"}));
-  write("_by_pitch",
-        of_group(items, "by_pitch",
-                 {"roll", "speed", "error_mean", "error_peak_to_peak", "force_mean", "force_largest"}));
-  write("_line_load", of_group(items, "line_load", {"z", "mean"}));
+  add("", over_roll(items));
+  add("_orders", of_group(items, "transmission_error", {"order", "amplitude", "phase"}));
+  add("_force_orders", of_group(items, "force", {"order", "amplitude"}));
+  add("_by_pitch",
+      of_group(items, "by_pitch",
+               {"roll", "speed", "error_mean", "error_peak_to_peak", "force_mean", "force_largest"}));
+  add("_line_load", of_group(items, "line_load", {"z", "mean"}));
   for (const std::string& gear : gears_with_roots(items))
-    write("_root_" + gear, of_group(items, "root/" + gear + "/way", {"place", "tension", "von_mises"}));
+    add("_root_" + gear, of_group(items, "root/" + gear + "/way", {"place", "tension", "von_mises"}));
   for (const std::string& group : patterns_of(items)) {
     std::string name = "_" + group;
     std::replace(name.begin(), name.end(), '/', '_');
-    write(name, of_pattern(items, group));
+    add(name, of_pattern(items, group));
   }
-  return written;
+  return tables;
 }
 
-std::vector<std::string> write_bearing_tables(const std::string& stem, const CaseFigures& of) {
+std::vector<NamedTable> bearing_tables(const std::string& stem, const CaseFigures& of) {
   std::vector<CsvColumn> over_roll, orders;
   if (of.bearings.empty()) return {};
   for (const auto& [path, name] : {std::pair("roll", "roll angle"), std::pair("time", "time")})
@@ -188,12 +186,9 @@ std::vector<std::string> write_bearing_tables(const std::string& stem, const Cas
     if (!is_order && !is_amplitude && !item.path.ends_with("/phase"))
       over_roll.push_back({name, item.unit, column_of(item)});
   }
-  std::vector<std::string> written = {stem + "_bearings.csv"};
-  io::write_csv(written.back(), over_roll);
-  if (orders.empty()) return written;
-  written.push_back(stem + "_bearing_orders.csv");
-  io::write_csv(written.back(), orders);
-  return written;
+  std::vector<NamedTable> tables = {{stem + "_bearings.csv", over_roll}};
+  if (!orders.empty()) tables.push_back({stem + "_bearing_orders.csv", orders});
+  return tables;
 }
 
 void write_cases_table(const std::string& path, const std::vector<CaseFigures>& cases) {
@@ -228,7 +223,7 @@ void write_summary(const std::string& path, const std::string& drive, const std:
       {"format", "elastogear evaluation summary"}, {"version", 1}, {"program", version()}, {"drive", drive}};
   j["cases"] = nlohmann::ordered_json::array();
   for (const CaseFigures& of : cases) j["cases"].push_back(json_of(of));
-  write_file(path, j.dump(2) + "\n");
+  write_file(path, json_text(j));
 }
 
 }  // namespace elastogear::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/evaluate/cases.h"
+#include "elastogear/io/csv.h"
 #include "elastogear/io/evaluation_file.h"
 
 namespace elastogear::app {
@@ -28,13 +29,18 @@ struct CaseFigures {
 /// The item at a path; nullptr where there is none.
 const io::EvaluationItem* find_item(const std::vector<io::EvaluationItem>& items, const std::string& path);
 
-/// Writes the tables of a pair, named after `stem`; returns their names.
-std::vector<std::string> write_pair_tables(const std::string& stem,
-                                           const std::vector<io::EvaluationItem>& items);
+/// A table that is to be written.
+struct NamedTable {
+  std::string path;
+  std::vector<io::CsvColumn> columns;
+};
 
-/// Writes loads and deflections of bearings over the roll angle, and the amplitudes of their orders; returns
-/// the names of the tables, none without bearings.
-std::vector<std::string> write_bearing_tables(const std::string& stem, const CaseFigures& of);
+/// The tables of a pair, named after `stem`.
+std::vector<NamedTable> pair_tables(const std::string& stem, const std::vector<io::EvaluationItem>& items);
+
+/// Loads and deflections of bearings over the roll angle, and the amplitudes of their orders; none without
+/// bearings.
+std::vector<NamedTable> bearing_tables(const std::string& stem, const CaseFigures& of);
 
 /// Writes one row a case with all single numbers.
 void write_cases_table(const std::string& path, const std::vector<CaseFigures>& cases);

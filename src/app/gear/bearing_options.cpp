@@ -1,5 +1,7 @@
 #include "app/gear/bearing_options.h"
 
+#include <cmath>
+
 #include "app/input/column_table.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
@@ -46,20 +48,24 @@ Bearing all_bearings(const Options& options, const DriveMember& member) {
   return b;
 }
 
+constexpr double kFarthest = 10;  // m, beyond any shaft: places farther off are given in a wrong unit
+
 // The stiffness of a designation.
 void take_from_catalogue(const std::string& file, const std::string& designation, Bearing& b) {
   ColumnTable table(file);
+  bool found = false;
   while (table.next()) {
     if (table.text(0) != designation) continue;
+    if (found) table.fail_here("the bearing '", designation, "' is there twice");
     if (table.n_columns() != 4)
       table.fail_here(
           "must be a designation, radial and axial stiffness (N/m) and that against tilting (N m/rad)");
     b.radial = table.number(1, "N/m");
     b.axial = table.number(2, "N/m");
     b.tilt = table.number(3, "N m/rad");
-    return;
+    found = true;
   }
-  fail(file, ": has no line of bearing '", designation, "'");
+  require(found, file, ": has no line of bearing '", designation, "'");
 }
 
 Bearing one_bearing(const Options& options, const std::string& name) {
@@ -70,6 +76,8 @@ Bearing one_bearing(const Options& options, const std::string& name) {
     take_from_catalogue(options.text("bearing_catalogue"), options.text(designation), b);
   }
   read_rows(options, kOneBearingRows, b, name);
+  require(std::abs(b.at) <= kFarthest, options.label(name + "_at"), " = ", b.at, " m: must be within ",
+          kFarthest, " m of the middle of the teeth; write its unit, as in '-20 mm'");
   require(b.radial > 0, "bearing ", name, ": stiffness ", b.radial, " N/m radial: must be positive; give ",
           name, "_radial or ", designation);
   return b;

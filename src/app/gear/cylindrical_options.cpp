@@ -178,6 +178,13 @@ void place_ring(const Options& options, gear::GearPair& pair, const CylindricalD
   if (of_planet && pair.a == 0) pair.coaxial = of_planet->first;
 }
 
+// The first gear stands at the origin.
+void refuse_place(const Options& options, const std::string& first) {
+  for (const char* key : {"_mate", "_centre_distance", "_direction"})
+    require(!options.given(first + key), options.label(first + key), ": places nothing: ", first,
+            " is the first gear, and its mates are placed against it; give it of one of them");
+}
+
 // The pairs of the last gear with earlier ones, of which the first gives it its place.
 void add_pairs(const Options& options, const GearChoices& g, CylindricalDrive& d) {
   const int second = static_cast<int>(d.gears.size()) - 1;
@@ -213,7 +220,7 @@ CylindricalDrive cylindrical_design(const Options& options) {
   for (const std::string& name : options.list("gears")) {
     const GearChoices g = gear_choices(options, name);
     d.gears.push_back(g.gear);
-    if (d.gears.size() > 1) add_pairs(options, g, d);
+    d.gears.size() > 1 ? add_pairs(options, g, d) : refuse_place(options, name);
   }
   return d;
 }

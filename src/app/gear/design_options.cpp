@@ -120,7 +120,11 @@ const Rows<Design>& design_rows() { return kDesignRows; }
 int element_order(const Options& options) { return options.choice("element_order", {"1", "2"}) + 1; }
 
 MeshDensity mesh_density(const Options& options) {
-  return {gear::size(options.text("size")), element_order(options), options.positive("refinement")};
+  constexpr double kFinest = 100;  // times the counts of a size, of which no machine holds the mesh
+  const double refinement = options.positive("refinement");
+  require(refinement <= kFinest, options.label("refinement"), " = ", refinement, ": must be at most ",
+          kFinest);
+  return {gear::size(options.text("size")), element_order(options), refinement};
 }
 
 bool is_worm(const Options& options) { return options.choice("part", {"worm", "wheel"}) == 0; }

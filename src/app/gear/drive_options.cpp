@@ -11,7 +11,9 @@
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
 #include "app/gear/worm_options.h"
+#include "app/tables/body_options.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::app {
 namespace {
@@ -78,12 +80,43 @@ std::vector<std::string> given_of(const Options& options, const OptionTable& tab
   return names;
 }
 
-// Meshes of one drive are as fine as each other, so that estimated errors are those of all of them.
-void refuse_densities_of_gears(const Options& options) {
-  for (const std::string& gear : options.list("gears"))
-    for (const char* density : {"_size", "_element_order", "_refinement"})
-      require(!options.given(gear + density), options.label(gear + density),
-              ": all gears of a drive have one ", density + 1, "; give it without the gear's name");
+// Has the table a key of this name for the gear, its own one or one of any gear or body?
+bool has_of_gear(const OptionTable& table, const std::string& gear, const std::string& key) {
+  return std::any_of(table.begin(), table.end(), [&](const OptionSpec& spec) {
+    return spec.name == gear + "_" + key || (spec.name.starts_with('<') && spec.name.ends_with(">_" + key));
+  });
+}
+
+// Nothing would read what is the whole drive's, or what a drive sets itself, in the section of a gear.
+void refuse_keys_of_drive(const Options& options) {
+  OptionTable keys = table_of(kDriveRows, design_rows());
+  for (const OptionTable& more : {cylindrical_table(), worm_table(), body_table()})
+    keys.insert(keys.end(), more.begin(), more.end());
+  const auto is_lost = [&](const std::string& gear, const std::string& key) {
+    return options.given(gear + "_" + key) && !has_of_gear(keys, gear, key);
+  };
+  for (const std::string& gear : options.list("gears")) {
+    for (const OptionSpec& spec : keys)
+      require(spec.name.find('<') != spec.name.npos || !is_lost(gear, spec.name),
+              options.label(gear + "_" + spec.name), ": all gears of a drive have one ", spec.name,
+              "; give it without the gear's name");
+    for (const std::string& key : kOfDrive)
+      require(!is_lost(gear, key), options.label(gear + "_" + key),
+              ": is for a single body; a drive makes the bodies of its gears of their data");
+  }
+}
+
+// Keys of a section begin with its gear's name, which must begin no key that is there without the gear.
+void refuse_names_of_gears(const Options& options) {
+  const std::vector<std::string> names = options.list("gears"), of_worm_drive = {"worm", "wheel"};
+  for (const std::string& name : names) {
+    require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
+            "' is there twice");
+    require(holds(of_worm_drive, name) || !options.begins_key(name), options.label("gears"), ": '", name,
+            "' is no name for a gear, as other keys begin with '", name, "_'; give it another one");
+  }
+  require(!is_worm_drive(options) || names == of_worm_drive, options.label("gears"), " = ", join(names),
+          ": the gears of drive: worm are worm, wheel; leave the key out");
 }
 
 // Numbers that the other kind of drive, or a single body, would have must not be passed over in silence.
@@ -124,6 +157,13 @@ OptionTable whole_drive_table() {
     table.push_back(spec);
   }
   return table;
+}
+
+void require_torque_of_side(const Options& options, const std::string& name, double torque) {
+  const bool coasts = drive_start(options).coasts;
+  require(torque >= 0, options.label(name), " = ", torque, " N m: would press other flanks together than ",
+          coasts ? "side: coast" : "side: drive", " puts in touch; give ", -torque, " N m with -side ",
+          coasts ? "drive" : "coast");
 }
 
 std::string drive_stem(const Options& options) {
@@ -168,11 +208,8 @@ Drive read_drive(const Options& options) {
   require_unit_of_speed(options);
   refuse_others(options);
   refuse_counts(options);
-  refuse_densities_of_gears(options);
-  const std::vector<std::string> names = options.list("gears");
-  for (const std::string& name : names)
-    require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
-            "' is there twice");
+  refuse_names_of_gears(options);
+  refuse_keys_of_drive(options);
   Drive drive = is_worm_drive(options) ? worm_drive(options, drive_start(options))
                                        : cylindrical_drive(options, drive_start(options));
   for (DriveMember& member : drive.members) member.deviations = flank_deviations(options, member);

@@ -23,6 +23,10 @@ std::string own_mesh(const Options& options, const std::string& gear);
 /// Its roll angle and the flanks in touch.
 drive::Start drive_start(const Options& options);
 
+/// Throws Error for a torque on the first gear at rest, N m, that presses flanks together which side does not
+/// put in touch. name: of its option.
+void require_torque_of_side(const Options& options, const std::string& name, double torque);
+
 /// Is this the run of a drive file?
 bool is_drive(const Options& options);
 

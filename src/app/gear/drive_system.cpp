@@ -29,6 +29,14 @@ drive::Operation operation(const Options& options, const Drive& drive) {
   const double sense = drive_start(options).coasts ? -1 : 1;
   how.torque = sense * options.number("torque");
   how.speed = sense * options.number("speed");
+  const std::string own_torque = drive.members.front().name + "_torque";
+  require(how.analysis != drive::Analysis::sweep || !options.given(own_torque), options.label(own_torque),
+          ": a sweep has its torque on the first gear from option -torque, which its results name; give it "
+          "there");
+  require(drive.members.size() > 1, options.label("gears"), " = ", drive.members.front().name,
+          ": a drive that runs has two gears at least");
+  if (how.analysis != drive::Analysis::motion)
+    require_torque_of_side(options, "torque", options.number("torque"));
   const bool loaded = how.torque != 0 || options.given("loads") || options.given("gravity") ||
                       !options.placeholder_values("<body>_torque").empty();
   require(how.analysis == drive::Analysis::motion || loaded,

@@ -98,6 +98,23 @@ bool any_given(const Options& options, const std::string& gear) {
                      [&](const OptionSpec& spec) { return options.given(with_word(spec.name, gear)); });
 }
 
+// A length or a form needs the amount that it is of, of all flanks or of one side, unless variants may give
+// it.
+void require_amounts(const Options& options, const std::string& gear) {
+  if (options.given("variants")) return;
+  for (const char* relief : {"tip_relief", "root_relief", "end_relief"}) {
+    const auto amount = [&](const char* side) { return gear + "_" + side + relief; };
+    const auto is_given = [&](const char* side) { return options.given(amount(side)); };
+    for (const char* side : {"", "left_", "right_"})
+      for (const char* end : {"_length", "_form"}) {
+        const bool has_amount =
+            is_given("") || is_given(side) || (!*side && (is_given("left_") || is_given("right_")));
+        require(!options.given(amount(side) + end) || has_amount, options.label(amount(side) + end),
+                ": needs ", amount(side), ", too, the material removed");
+      }
+  }
+}
+
 FlankModification modification(const Options& options, const DriveMember& member, const std::string& side) {
   FlankModification m;
   m.tip.length = m.root.length = gear::relief_length(member.toothing);
@@ -112,10 +129,12 @@ Eigen::VectorXd index_deviations(const Options& options, const DriveMember& memb
   const std::string label = options.label(member.name + "_pitch_deviation");
   require(pairs.size() % 2 == 0, label, ": must be pairs of a tooth and its deviation, as in [3, 10 um]");
   Eigen::VectorXd index = Eigen::VectorXd::Zero(member.toothing.z);
+  std::set<double> seen;
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
     const double tooth = pairs[i];
     require(tooth == std::floor(tooth) && tooth >= 1 && tooth <= member.toothing.z, label, ": tooth ", tooth,
             " is not there, teeth are 1 to ", member.toothing.z);
+    require(seen.insert(tooth).second, label, ": tooth ", tooth, " is there twice");
     index[static_cast<Eigen::Index>(tooth) - 1] = pairs[i + 1];
   }
   return index;
@@ -205,12 +224,15 @@ OptionTable modification_table() {
 
 std::optional<FlankDeviations> flank_deviations(const Options& options, const DriveMember& member) {
   if (!any_given(options, member.name)) return {};
+  require_amounts(options, member.name);
   FlankDeviations deviations;
   deviations.left = modification(options, member, "left_");
   deviations.right = modification(options, member, "right_");
   deviations.width = member.width;
   Errors errors;
   read_rows(options, kErrorRows, errors, member.name);
+  require(errors.run_out >= 0, options.label(member.name + "_run_out"), " = ", errors.run_out,
+          " m: must be at least 0; run_out_angle says where the teeth stand out");
   deviations.index = index_deviations(options, member, errors.pitch);
   const double angle = member.toothing.theta_1 + errors.run_out_angle * std::numbers::pi / 180;
   deviations.eccentricity = errors.run_out / 2 * Eigen::Vector2d(std::cos(angle), std::sin(angle));

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "app/evaluate/cases.h"
 #include "app/evaluate/mesh_errors.h"
 #include "app/options/units.h"
 #include "app/setup/drive_input.h"
@@ -92,6 +94,7 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
     const auto value =
         parse<double>(unit.empty() ? fields[torque] : in_unit(table, fields[torque] + " " + unit, "N m"));
     require(value.has_value(), table, ": torque '", fields[torque], "' is no number");
+    require_torque_of_run(table + ", case '" + line + "'", path, *value);
     all.push_back({path, sense * *value, is_stress_file(path)});
   }
   require(!all.empty() && (variants.size() == 1 || !variant.empty()), table, ": ",
@@ -148,12 +151,18 @@ std::vector<SweptTorque> named_torques(const Options& options, const LifeSetting
   std::vector<SweptTorque> all;
   for (std::size_t i = 0; i < settings.files.size(); ++i)
     all.push_back(of_file(settings.files[i], settings.torques.empty() ? nullptr : &settings.torques[i]));
-  if (!all.empty()) return all;
+  const auto refuse_variant = [&](const std::string& file) {
+    require(settings.variant.empty(), options.label("variant"), " = '", settings.variant,
+            "': chooses among the cases of a sweep over variants; ", file,
+            " is a result or stresses of one; leave it out");
+  };
+  if (!all.empty()) return refuse_variant(all.front().file), all;
   const std::string stem = drive_stem(options) + "_result", table = stem + "/cases.csv";
   if (fs::exists(table)) return of_cases(options, table, settings.variant);
   require(fs::exists(stem + ".h5"), stem, ".h5: there is no such file, nor ", table,
           ": sweep the drive first, elastogear simulate ", options.files().empty() ? "" : options.files()[0],
           " with analysis: sweep, or name result or stress files by -files");
+  refuse_variant(stem + ".h5");
   return {of_file(stem + ".h5", nullptr)};
 }
 
@@ -161,7 +170,13 @@ std::vector<SweptTorque> named_torques(const Options& options, const LifeSetting
 
 std::vector<SweptTorque> swept_torques(const Options& options, const LifeSettings& settings) {
   std::vector<SweptTorque> all = named_torques(options, settings);
-  for (const SweptTorque& at : all) require_input(options, at.file);
+  std::map<double, std::string> file_of;
+  for (const SweptTorque& at : all) {
+    const auto [other, is_new] = file_of.emplace(at.torque, at.file);
+    require(is_new, at.file, ": is of ", at.torque, " N m, as ", other->second,
+            " is: a torque has one file; leave one of the two out");
+    require_input(options, at.file);
+  }
   return all;
 }
 

@@ -4,11 +4,13 @@
 #include <numbers>
 #include <optional>
 
+#include "app/console/plausibility.h"
 #include "app/gear/drive_options.h"
 #include "app/input/column_table.h"
 #include "app/options/rows.h"
 #include "app/options/units.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 
 namespace elastogear::app {
@@ -146,6 +148,11 @@ std::vector<Block> read_duty_cycle(const std::string& file) {
   return blocks;
 }
 
+// A torque alone is no name of a table unless there is one.
+bool names_table(const Options& options, const std::string& word) {
+  return is_file(word) || !parse<double>(in_unit(options.label("duty_cycle"), word, "N m"));
+}
+
 // Times that are not given are those at the drive's speed, where it has one.
 std::vector<Block> with_times(const Options& options, std::vector<Block> blocks) {
   const double speed = std::abs(options.number("speed"));
@@ -198,14 +205,25 @@ Strength strength_of(const Options& options, const std::string& gear) {
   }
 }
 
+void warn_of_strengths(const Options& options, const Drive& drive) {
+  for (const OptionSpec& spec : table_of(strength_rows(""))) {
+    if (spec.unit != "Pa") continue;
+    std::vector<std::string> names = {spec.name};
+    for (const DriveMember& member : drive.members) names.push_back(member.name + "_" + spec.name);
+    for (const std::string& name : names)
+      if (options.given(name)) warn_of_strength(options.label(name), options.number(name));
+  }
+}
+
 std::vector<Block> duty_cycle(const Options& options) {
   require(options.given("duty_cycle"),
           "option -duty_cycle is missing: torques and revolutions, as in 'life: {duty_cycle: [100 N m, 1e6, "
           "250 N m, 1e4]}', or a CSV file");
   const std::vector<std::string> words = options.list("duty_cycle");
-  if (words.size() == 1) return with_times(options, read_duty_cycle(words[0]));
+  if (words.size() == 1 && names_table(options, words[0]))
+    return with_times(options, read_duty_cycle(words[0]));
   require(
-      !words.empty() && words.size() % 2 == 0, options.label("duty_cycle"),
+      words.size() > 1 && words.size() % 2 == 0, options.label("duty_cycle"),
       ": must be pairs of a torque and revolutions or hours, as in [100 N m, 1e6, 250 N m, 20 h], or a CSV "
       "file");
   std::vector<Block> blocks;

@@ -38,6 +38,9 @@ LifeSettings life_settings(const Options& options, const Drive& drive);
 /// remedy, when something is missing or wrong.
 Strength strength_of(const Options& options, const std::string& gear);
 
+/// Warns of strengths that no material of a gear has.
+void warn_of_strengths(const Options& options, const Drive& drive);
+
 /// The duty cycle, a list of torques and revolutions or hours, or a CSV file. Error naming entry or line.
 std::vector<life::Block> duty_cycle(const Options& options);
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/console/console.h"
+#include "app/console/json_text.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
@@ -155,7 +156,7 @@ void write_summary(const std::string& path, const LifeReport& report) {
   for (const SweptTorque& at : report.swept)
     json["sweeps"].push_back({{"torque_Nm", at.torque}, {"file", at.file}});
   for (const LifeOfSet& one : report.sets) json["sets"].push_back(json_of_set(one, sum));
-  write_file(path, json.dump(2) + "\n");
+  write_file(path, json_text(json));
 }
 
 std::string place(const LifeOfSet& one) {

@@ -337,6 +337,11 @@ std::vector<std::string> Options::list_with_files(const std::string& name) const
   return all;
 }
 
+bool Options::begins_key(const std::string& word) const {
+  return std::any_of(known_.begin(), known_.end(),
+                     [&](const OptionSpec& spec) { return spec.name.starts_with(word + "_"); });
+}
+
 bool Options::is_of_other_verb(const std::string& name) const {
   return !has(own_, name) && has(known_, name);
 }

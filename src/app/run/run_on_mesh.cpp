@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/console/console.h"
+#include "app/console/outputs.h"
 #include "app/evaluate/cases.h"
 #include "app/evaluate/evaluate_options.h"
 #include "app/options/verbs.h"
@@ -140,8 +141,11 @@ void require_places(const RunOnMesh& of, const Drive& drive) {
   const std::string evaluation = evaluation_file(of);
   std::vector<std::string> files = {result_file(of), evaluation,
                                     fs::path(evaluation).replace_extension(".json").string()};
-  for (const DriveMember& member : drive.members) files.push_back(body_file(of.reduce, member));
   for (const std::string& file : files) place_of_output(file);
+  std::vector<Outputs> outputs = {{"output", files}};
+  for (const DriveMember& member : drive.members)
+    outputs.push_back({member.name + "_file", {body_file(of.reduce, member)}});
+  require_different(of.reduce, outputs);
 }
 
 void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string>& coarser) {

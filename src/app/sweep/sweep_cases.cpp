@@ -106,10 +106,24 @@ std::string padded(std::size_t number) {
   return text;
 }
 
+// The keys of a table's columns with their units.
+std::vector<Heading> heading_of_table(const std::string& where, const std::vector<std::string>& fields,
+                                      const OptionTable& keys) {
+  std::vector<Heading> head;
+  for (const std::string& field : fields) {
+    const Heading heading = heading_of(where, field);
+    if (heading.name != "variant") spec_of(keys, {where, heading.name, ""});
+    for (const Heading& earlier : head)
+      require(earlier.name != heading.name, where, ": the key ", heading.name, " stands there twice");
+    head.push_back(heading);
+  }
+  return head;
+}
+
 // A column `variant` holds the names, which else are numbers; an empty field leaves the drive's value.
 std::vector<Variant> variants_of_table(const std::string& file, const OptionTable& keys) {
-  std::istringstream in(read_file(file));
-  std::vector<std::string> head, units;
+  std::istringstream in(read_text(file));
+  std::vector<Heading> head;
   std::vector<Variant> variants;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
@@ -117,23 +131,20 @@ std::vector<Variant> variants_of_table(const std::string& file, const OptionTabl
     const std::vector<std::string> fields = fields_of(text);
     if (fields.size() == 1 && fields[0].empty()) continue;
     if (fields[0].starts_with('#')) continue;
+    require(is_utf8(text), where, ": has letters that are not in UTF-8; save the file as UTF-8");
     if (head.empty()) {
-      for (const std::string& field : fields) {
-        const Heading heading = heading_of(where, field);
-        units.push_back(heading.unit);
-        head.push_back(heading.name);
-        if (head.back() != "variant") spec_of(keys, {where, head.back(), ""});
-      }
+      head = heading_of_table(where, fields, keys);
       continue;
     }
     require(fields.size() == head.size(), where, ": has ", fields.size(), " fields, the line of keys has ",
             head.size());
     Variant variant{padded(variants.size() + 1)};
     for (std::size_t i = 0; i < head.size(); ++i)
-      if (head[i] == "variant")
+      if (head[i].name == "variant")
         variant.name = fields[i];
       else if (!fields[i].empty())
-        add(keys, {where, head[i], units[i].empty() ? fields[i] : fields[i] + " " + units[i]}, variant);
+        add(keys, {where, head[i].name, head[i].unit.empty() ? fields[i] : fields[i] + " " + head[i].unit},
+            variant);
     variants.push_back(variant);
   }
   require(!variants.empty(), file, ": holds no variants: a line of keys, and one line for each variant");
@@ -201,6 +212,7 @@ SweepCases sweep_cases(const Options& options) {
   read_rows(options, kCaseRows, choices);
   const bool of_torques = sweeps_torques(options);
   if (!of_torques) choices.torques.clear();
+  for (double torque : choices.torques) require_torque_of_side(options, "torques", torque);
   SweepCases all;
   all.variants = read_variants(options, choices.variants);
   all.several = of_torques || options.given("variants");

@@ -18,7 +18,7 @@ using dynamics::TimeSettings;
 
 // Words of a file, one a line.
 std::vector<std::string> words_of(const std::string& path) {
-  std::istringstream in(read_file(path));
+  std::istringstream in(read_text(path));
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
   return words;

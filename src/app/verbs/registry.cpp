@@ -27,7 +27,7 @@ OptionTable all_options(const std::vector<Verb>& verbs) {
 }
 
 // Verbs that make what the others read. Their options may describe a drive on any command line.
-const std::vector<std::string> kMakers = {"run", "mesh", "reduce", "simulate"};
+const std::vector<std::string> kMakers = {"mesh", "reduce", "simulate"};
 
 bool is_of_section(const std::vector<Verb>& verbs, const std::string& name) {
   return std::ranges::any_of(verbs, [&](const Verb& verb) {

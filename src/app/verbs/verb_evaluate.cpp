@@ -14,6 +14,7 @@
 #include "app/gear/drive_options.h"
 #include "app/options/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/model/fingerprint.h"
@@ -78,9 +79,21 @@ void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
   add("tilt", "rad", "tilt of the gear at the bearing", bearing.tilt);
 }
 
+// Without its torque means: next to nothing against that of the case.
+constexpr double kLeastTorque = 0.01;
+
+void require_unloaded(const Options& options, const Case& of) {
+  const std::string file = options.text("unloaded");
+  const double torque = torque_of_run(of.file), unloaded = torque_of_run(file);
+  require(!(std::abs(unloaded) > kLeastTorque * std::abs(torque)), options.label("unloaded"), " = '", file,
+          "': is a run under ", unloaded, " N m, ", of.file, " one under ", torque,
+          " N m: name one under at most ", 100 * kLeastTorque, " % of the torque");
+}
+
 Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
                         const std::map<std::string, Eigen::VectorXd>& unloaded) {
   CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
+  if (!unloaded.empty()) require_unloaded(of.options, of_case);
   Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
   for (const NamedPair& pair : run.pairs) {
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
@@ -142,7 +155,6 @@ void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
 // Adds the secant stiffness of drives with modified flanks, which needs the transmission error without load:
 // it is that of a case whose torque is next to nothing.
 void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
-  constexpr double kLeastTorque = 0.01;  // of the torque
   const Evaluated* least = other_load(cases, of, [](double, double other) { return std::abs(other); });
   const double torque = std::abs(number_in_column(of.figures.of, "torque"));
   if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kLeastTorque * torque) return;
@@ -182,27 +194,37 @@ io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures
   return file;
 }
 
+std::vector<NamedTable> tables_of(const EvaluateSettings& settings, const std::vector<CaseFigures>& cases) {
+  const bool several = cases.size() > 1;
+  std::vector<NamedTable> all;
+  const auto add = [&](std::vector<NamedTable> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  };
+  for (const CaseFigures& of : cases) {
+    if (several && !settings.case_tables) break;
+    for (const PairFigures& pair : of.pairs)
+      add(pair_tables(tables_stem(settings, of, several, pair.pair), pair.items));
+    add(bearing_tables(stem_of(settings.output) + (several ? "_" + of.of.name : ""), of));
+  }
+  return all;
+}
+
 void write_all(const Options& options, const EvaluateSettings& settings,
                const std::vector<CaseFigures>& cases) {
-  const bool several = cases.size() > 1;
   const std::string stem = stem_of(settings.output);
+  const std::vector<NamedTable> tables = tables_of(settings, cases);
+  for (const NamedTable& table : tables) place_of_output(table.path);  // an Error before anything is written
   io::write_evaluation(settings.output, file_of(options, cases));
   print_detail("written", settings.output);
   write_summary(stem + ".json", drive_stem(options), cases);
   print_detail("written", stem + ".json");
-  if (several) {
+  if (cases.size() > 1) {
     write_cases_table(stem + "_cases.csv", cases);
     print_item("written", stem + "_cases.csv");
   }
-  std::size_t n = 0;
-  for (const CaseFigures& of : cases) {
-    if (several && !settings.case_tables) break;
-    for (const PairFigures& pair : of.pairs)
-      n += write_pair_tables(tables_stem(settings, of, several, pair.pair), pair.items).size();
-    n += write_bearing_tables(stem + (several ? "_" + of.of.name : ""), of).size();
-  }
+  for (const NamedTable& table : tables) io::write_csv(table.path, table.columns);
   print_item("written", stem + ".json (all numbers, for programs), " + settings.output + ", " +
-                            std::to_string(n) + " tables " + stem + "_*.csv");
+                            std::to_string(tables.size()) + " tables " + stem + "_*.csv");
 }
 
 // Tables are named after the output and cannot be inputs unless these end in .csv or .json.

@@ -143,6 +143,7 @@ void run_life(const Options& given, const std::vector<std::string>&) {
   for (const DriveMember& member : drive.members) names.push_back(member.name);
   options.reject_unknown({{"body", names}, {"gear", names}});
   const LifeSettings settings = life_settings(options, drive);
+  warn_of_strengths(options, drive);
   LifeReport report{duty_cycle(options), swept_torques(options, settings), {}};
   protect_inputs(options, drive, settings, report.swept);
   const OutputLock lock(settings.output);

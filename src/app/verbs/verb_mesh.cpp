@@ -51,13 +51,15 @@ void mesh_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const MeshDensity density = mesh_density(options);
   std::vector<std::string> paths;
+  std::vector<Outputs> outputs;
   for (const DriveMember& member : drive.members) {
     const std::string option = member.name + "_mesh_output";
     paths.push_back(options.given(option) ? options.text(option) : member.name + ".msh");
-    protect_inputs(options, {{option, {paths.back()}}});
+    outputs.push_back({option, {paths.back()}});
   }
   const std::string drawing = drawing_file(options);
-  protect_inputs(options, {{"drawing", {drawing}}});
+  outputs.push_back({"drawing", {drawing}});
+  protect_inputs(options, outputs);
   print_drive(drive);
   std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {

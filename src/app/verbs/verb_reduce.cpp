@@ -322,6 +322,10 @@ void reduce_body(const Options& options, const NodeSource& read) {
 void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const MeshDensity density = mesh_density(options);
+  std::vector<Outputs> bodies;
+  for (const DriveMember& member : drive.members)
+    bodies.push_back({member.name + "_file", {body_file(options, member)}});
+  protect_inputs(options, bodies);
   print_facts(drive);
   for (const DriveMember& member : drive.members) {
     print_detail("body " + member.name, "");

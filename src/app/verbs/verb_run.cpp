@@ -230,6 +230,7 @@ void run_all(const Options& given, const std::vector<std::string>&) {
   require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
   RunSettings settings;
   read_rows(given, kRunRows, settings);
+  with_gears(given).reject_unknown();
   const Drive drive = read_drive(with_gears(given));
   RunOnMesh of = run_options(given);
   number_on_rank_0([&] {

@@ -143,6 +143,13 @@ std::string end_of(const WearSettings& settings, const std::vector<WearingGear>&
   return "";
 }
 
+void require_teeth_left(const Options& options, const std::vector<WearingGear>& gears, double revolutions) {
+  for (const WearingGear& gear : gears)
+    require(largest_depth(gear) <= tooth_height(*gear.member), options.label("increment"), ": after ",
+            revolutions, " revolutions nothing would be left of the teeth of ", gear.member->name,
+            ", worn by ", largest_depth(gear), " m; give fewer revolutions, or a limit of the depth");
+}
+
 WearCourse wear_down(const Options& options, const Drive& drive, const WearSettings& settings,
                      std::vector<WearingGear>& gears, const std::string& flanks, const std::string& file,
                      std::string& why) {
@@ -158,6 +165,7 @@ WearCourse wear_down(const Options& options, const Drive& drive, const WearSetti
     const double done = course.revolutions.back(), step = next_step(settings, gears, passed, done);
     for (std::size_t i = 0; i < gears.size(); ++i)
       for (int side = 0; side < 2; ++side) gears[i].depth[side] += step * rate(gears[i], passed[i].of[side]);
+    require_teeth_left(options, gears, done + step);
     note(course, gears, done + step);
     why = end_of(settings, gears, course);
   }
@@ -172,6 +180,9 @@ Options with_one_case(Options options) {
     require(!options.given(name) || (name == std::string("torques") && has_torque), options.label(name),
             ": wear takes one case, of torque");
   if (has_torque) options.set("torque", options.text("torque"));
+  require(!options.overrides_files("analysis") || options.text("analysis") == "sweep",
+          options.label("analysis"), " = ", options.text("analysis"),
+          ": wear is computed of sweeps (analysis: sweep); leave it out");
   return options;
 }
 
@@ -207,6 +218,7 @@ void run_wear(const Options& given, const std::vector<std::string>&) {
   options.reject_unknown({{"body", names}, {"gear", names}});
   refuse_single_teeth(drive, options);
   const WearSettings settings = wear_settings(options);
+  require_limit_within_teeth(options, settings, drive);
   const std::string output = output_of(options);
   std::vector<WearingGear> gears = wearing_gears(options, drive, settings);
   const DriveOnMeshes meshes = drive_on_meshes(options, drive);

@@ -1,5 +1,6 @@
 #include "app/wear/wear_options.h"
 
+#include "app/console/plausibility.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 
@@ -43,17 +44,30 @@ WearSettings wear_settings(const Options& options) {
   WearSettings settings;
   read_rows(options, kWearRows, settings);
   require(settings.limit >= 0, options.label("limit"), " = ", settings.limit, " m: must be at least 0");
-  require(settings.along >= 2 && settings.across >= 2, options.label("cells_along"), " = ", settings.along,
-          ", cells_across = ", settings.across, ": must be 2 at least");
+  constexpr int kLeast = 2, kMost = 1000;  // cells
+  const auto fits = [](int cells) { return cells >= kLeast && cells <= kMost; };
+  require(fits(settings.along) && fits(settings.across), options.label("cells_along"), " = ", settings.along,
+          ", cells_across = ", settings.across, ": must be ", kLeast, " at least and at most ", kMost);
   return settings;
+}
+
+void require_limit_within_teeth(const Options& options, const WearSettings& settings, const Drive& drive) {
+  for (const DriveMember& member : drive.members)
+    require(settings.limit <= tooth_height(member), options.label("limit"), " = ", settings.limit,
+            " m: must be at most ", tooth_height(member), " m, the height of the teeth of ", member.name,
+            "; write its unit, as in '20 um'");
 }
 
 WearMaterial wear_material(const Options& options, const DriveMember& member) {
   WearMaterial material;
   read_rows(options, material_rows(""), material);
   read_rows(options, material_rows("<gear>_"), material, member.name);
-  require(material.coefficient >= 0, options.label("coefficient"), " = ", material.coefficient,
+  const auto given = [&](const std::string& key) {
+    return options.given(member.name + "_" + key) ? member.name + "_" + key : key;
+  };
+  require(material.coefficient >= 0, options.label(given("coefficient")), " = ", material.coefficient,
           " m^2/N: must be at least 0");
+  warn_of_density(options.label(given("density")), material.density);
   return material;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The options of wear.
 
+#include <cmath>
 #include <string>
 
 #include "app/gear/drive.h"
@@ -27,7 +28,15 @@ OptionTable wear_table();
 
 WearSettings wear_settings(const Options& options);
 
-/// The gear's own keys, and those of all gears where it has none.
+/// m, of the gear's teeth.
+inline double tooth_height(const DriveMember& member) {
+  return std::abs(member.toothing.r_a - member.toothing.r_f);
+}
+
+/// Throws Error for a limit of the depth that is beyond the height of the drive's teeth.
+void require_limit_within_teeth(const Options& options, const WearSettings& settings, const Drive& drive);
+
+/// The gear's own keys, and those of all gears where it has none. Warns of a density that no material has.
 WearMaterial wear_material(const Options& options, const DriveMember& member);
 
 }  // namespace elastogear::app

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/console/console.h"
+#include "app/console/json_text.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 #include "elastogear/evaluation/grid_convergence.h"
@@ -125,7 +126,7 @@ void write_course(const std::string& output, const WearCourse& course, const std
     json["gears"].push_back(std::move(gear));
   }
   io::write_csv(course_files(output)[0], columns);
-  write_file(course_files(output)[1], json.dump(2) + "\n");
+  write_file(course_files(output)[1], json_text(json));
 }
 
 io::WearFile wear_file(const WearCourse& course, const std::vector<WearingGear>& gears) {

@@ -51,6 +51,9 @@ Blank completed(const CylindricalDrive& d, const CylindricalGear& gear, const To
   require(b.rim_diameter >= b.bore && b.rim_diameter <= most, gear.name,
           ": rim_diameter = ", mm(b.rim_diameter), " mm: must be between the bore, ", mm(b.bore), " mm, and ",
           mm(most), " mm");
+  require(b.has_web() || (b.web_diameter == 0 && b.web_width == 0 && b.hub_width == 0), gear.name,
+          ": web_diameter = ", mm(b.web_diameter), " mm, web_width = ", mm(b.web_width),
+          " mm, hub_width = ", mm(b.hub_width), " mm: a web and its hub need hub_diameter, too");
   if (!b.has_web()) return b;
   require(b.bore < b.hub_diameter && b.hub_diameter < b.web_diameter && b.web_diameter < b.rim_diameter,
           gear.name, ": bore ", mm(b.bore), ", hub_diameter ", mm(b.hub_diameter), ", web_diameter ",

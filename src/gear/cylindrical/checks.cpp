@@ -12,6 +12,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kMostModule = 0.5;  // m: larger ones are given in a wrong unit
+constexpr double kMostFace = 3;      // m
 constexpr int kLeastTeeth = 5, kMostTeeth = 1000;
 constexpr double kMostHelix = pi / 4, kMostPressureAngle = pi / 4;
 constexpr double kDegree = pi / 180;
@@ -47,6 +48,8 @@ void check_numbers(const CylindricalDrive& d) {
             ": must be between -2 and 2 (modules)");
     require(std::isfinite(gear.blank.face_width) && gear.blank.face_width > 0, gear.name,
             ": face_width = ", mm(gear.blank.face_width), " mm: must be positive");
+    require(gear.blank.face_width <= kMostFace, gear.name, ": face_width = ", gear.blank.face_width,
+            " m: is at most ", kMostFace, " m; write the unit, face_width: ", gear.blank.face_width, " mm");
   }
 }
 

@@ -126,6 +126,14 @@ void choose_cutter(const CylindricalDrive& d, CylindricalGeometry& g, int i) {
   g.cutter[i] = {c.teeth.z, c.rho / d.m_n};
 }
 
+// Of teeth that are too thin.
+std::string backlash_remedy(const CylindricalDrive& d) {
+  std::ostringstream text;
+  if (d.j_n > kLeastTip * d.m_n)
+    text << ", or less than backlash = " << mm(d.j_n) << " mm, half of which thins the teeth of each gear";
+  return text.str();
+}
+
 void check_tip(const CylindricalDrive& d, const std::string& name, const Toothing& t) {
   const double shortest = t.internal ? t.r_f : std::max(t.r_f, t.r_b);
   if (t.internal)
@@ -137,7 +145,7 @@ void check_tip(const CylindricalDrive& d, const std::string& name, const Toothin
   const auto thick = [&](double r) { return normal_thickness(t, r) >= least; };
   require(thick(t.r_a), name, ": the teeth are pointed, thinner than ", mm(least), " mm at the tip diameter ",
           mm(2 * t.r_a), " mm; tip_diameter of at ", t.internal ? "least " : "most ",
-          mm(2 * largest(shortest, t.r_a, thick)), " mm would do");
+          mm(2 * largest(shortest, t.r_a, thick)), " mm would do", backlash_remedy(d));
 }
 
 void check_clearance(const CylindricalDrive& d, const CylindricalGeometry& g, int own, int mate, double a) {

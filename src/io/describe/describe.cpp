@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/file.h"
@@ -233,8 +234,7 @@ bool has_hdf5_signature(const std::string& path) {
 }  // namespace
 
 std::string file_format(const std::string& path) {
-  std::error_code error;
-  require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");
+  require_file(path);
   require(has_hdf5_signature(path), path, ": is no HDF5 file of this program");
   return h5::string_attribute(h5::open(path), "/", "format");
 }
@@ -244,8 +244,7 @@ std::map<std::string, std::string> read_provenance(const std::string& path) {
 }
 
 std::string describe(const std::string& path) {
-  std::error_code error;
-  require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");
+  require_file(path);
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });

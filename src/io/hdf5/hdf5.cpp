@@ -73,9 +73,7 @@ File create(const std::string& path, const std::string& temporary) {
 
 File open(const std::string& path) {
   silence();
-  std::error_code error;
-  require(std::filesystem::exists(path, error), path, ": there is no such file");
-  require(std::filesystem::is_regular_file(path, error), path, ": is not a regular file");
+  require_file(path);
   require(access(path.c_str(), R_OK) == 0, path, ": cannot be read: ", std::strerror(errno));
   require(H5Fis_hdf5(path.c_str()) > 0, path, ": is no HDF5 file, or is truncated or damaged");
   File file{path, Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, read_properties()))};
