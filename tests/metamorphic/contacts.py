@@ -42,8 +42,8 @@ def hit(lab, name, place, world, speed, end):
 
 
 def contact_that_starts_closed_is_that_of_a_small_gap(lab):
-    """Bars that start at no distance hit each other as bars do that have one of a millionth of a cell: along their axis, with the same
-    impulse. Their nodes lie on each other, where the nearest point alone has no direction."""
+    """Bars that start at no distance hit each other as bars do that have one of a millionth of a cell, or fly a part of a cell before: along
+    their axis, with the same impulse. Nodes of bars that start closed lie on each other, where the nearest point alone has no direction."""
     random = lab.random
     cells = [int(random.integers(4, 8)), int(random.integers(1, 4)), int(random.integers(1, 4))]
     size = [between(random, 0.01, 0.03, 2) for _ in range(3)]
@@ -53,8 +53,9 @@ def contact_that_starts_closed_is_that_of_a_small_gap(lab):
     end = 3 * length / np.sqrt(STEEL["E"] / STEEL["rho"])
     place = np.array([2 * length, cells[1] * size[1], 0.0] if full else [length, 0.0, 0.0])
     impulses = []
-    for name, gap in (("closed", 0.0), ("gap", 1e-6 * size[0])):
-        _, time, along, across, balance = hit(lab, name, place + [gap, 0, 0], world, speed, end)
+    for name, gap in (("closed", 0.0), ("gap", 1e-6 * size[0]), ("flight", between(random, 0.003, 0.3) * size[0])):
+        flight = gap / speed if name == "flight" else 0
+        _, time, along, across, balance = hit(lab, name, place + [gap, 0, 0], world, speed, end + flight)
         at_most("force across the axis over that along", np.abs(across).max() / along.max(), 1e-3)
         at_most("energy lost or made over that of the bar", np.abs(balance).max() / (STEEL["rho"] * np.prod(cells) * np.prod(size) * speed**2 / 2),
                 0.05)

@@ -110,7 +110,7 @@ double number_in_column(const Case& of, const std::string& heading) {
   for (const auto& [name, text] : of.columns)
     if (name == heading || name.starts_with(heading + " [")) {
       const std::string unit = heading_of(of.file, name).unit,
-                        number = unit.empty() ? text : text + " " + unit;
+                        number = unit.empty() ? text : std::string(text).append(" ").append(unit);
       if (const auto value = parse<double>(in_unit("column " + name, number, "N m"))) return *value;
     }
   return std::numeric_limits<double>::quiet_NaN();

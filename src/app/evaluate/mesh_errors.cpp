@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -198,19 +199,22 @@ namespace {
 // over: takes paths of largest tensions.
 double root_error_over(const io::EvaluationFile& evaluation,
                        const std::function<bool(const std::string&)>& over) {
-  std::map<std::string, const EvaluationItem*> largest;  // by case and gear, of all its pairs
+  using CaseAndGear = std::pair<std::string, std::string>;
+  std::map<CaseAndGear, const EvaluationItem*> largest;  // of all pairs of a gear
+  std::map<std::string, double> of_gear;                 // Pa, over all cases
   for (const EvaluationItem& item : evaluation.items) {
     if (!item.path.ends_with(kRootTension) || !over(item.path)) continue;
-    const EvaluationItem*& known =
-        largest[item.path.substr(0, item.path.find('/')) + item.path.substr(item.path.find("/root/"))];
+    const std::string gear = item.path.substr(item.path.find("/root/"));
+    const EvaluationItem*& known = largest[{item.path.substr(0, item.path.find('/')), gear}];
     if (!known || item.value[0] > known->value[0]) known = &item;
+    of_gear[gear] = std::max(of_gear[gear], item.value[0]);
   }
   double worst = -1;
-  for (const auto& [gear, item] : largest) {
+  for (const auto& [of, item] : largest) {
     const EvaluationItem* by_mesh = find_item(evaluation.items, item->path + kErrorEnd);
     if (!by_mesh || !(item->value[0] > 0)) continue;
     const double error = std::max(by_mesh->value[0], whole_error(evaluation.items, item->path));
-    worst = std::max(worst, error / item->value[0]);
+    worst = std::max(worst, error / of_gear.at(of.second));
   }
   return worst;
 }

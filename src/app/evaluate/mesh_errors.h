@@ -16,8 +16,9 @@ namespace elastogear::app {
 void add_mesh_errors(const std::vector<std::string>& coarser, double refinement,
                      std::vector<CaseFigures>& cases);
 
-/// The largest estimated error of the largest tension at the root of a gear, as a share of it, over all cases
-/// and gears of an evaluation file; < 0: there is none.
+/// The largest estimated error of the largest tension at the root of a gear in a case, as a share of that of
+/// the same gear over all cases of an evaluation file: a small torque does not ask for a finer mesh than the
+/// largest one. < 0: there is none.
 double root_error(const std::string& evaluation);
 /// The same of one gear of the case that was read off this result, whose bodies are those of the evaluation's
 /// results; < 0 where the evaluation is of others.

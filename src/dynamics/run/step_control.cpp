@@ -13,6 +13,8 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies may enter in their first step
+// Of the tolerated error of a step: what contact may store in the first step, over the energy of the motion.
+constexpr double kTouchEnergy = 2;
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
 constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
@@ -178,6 +180,18 @@ double step_to_output(const Run& run, double time, double dt, double longest) {
   return left / std::ceil(left / std::min(kLonger * dt, longest));
 }
 
+// J, that contact would store in the present state, in a penalty, in half-spaces and by static responses.
+double contact_energy(System& system, double t, ConstVector U, ConstVector V) {
+  const ContactState& contact = system.contacts(t, U, V);
+  double energy = contact.stations.local_energy;
+  for (const PairContacts& pair : contact.pair)
+    for (const contact::ContactPoint& point : pair.points) energy += point.energy;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) energy += system.residual_energy(b);
+  return energy;
+}
+
+// The step of the first touch sees no contact before its end, so that what contact then stores, Eq. (8.9b),
+// is work that nothing has done.
 PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accept) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
@@ -187,7 +201,11 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
     if (run->touches || dt <= kShortestStep * run->nominal_dt) return;
     System& system = run->problem.system;
     const Eigen::VectorXd V = Eigen::VectorXd::Zero(system.size());  // without influence on the depth
-    if (system.depth_share(t, *ReadView(U), V) > kFirstTouch) *accept = PETSC_FALSE;
+    const ReadView u(U);
+    const model::Energies& last = run->last->energy;
+    const double allowed = kTouchEnergy * run->settings.step_error * (last.kinetic + last.elastic);
+    if (system.depth_share(t, *u, V) > kFirstTouch || contact_energy(system, t, *u, V) > allowed)
+      *accept = PETSC_FALSE;
   });
 }
 
