@@ -130,7 +130,7 @@ FILES = [
     Case("bodies of two gears in one file", r"one.h5.*(both|two|pinion.*wheel)", REDUCE + " -pinion_file one.h5 -wheel_file one.h5"),
     Case("bodies of two gears in one file by two paths", r"one.h5.*(both|two|pinion.*wheel)", REDUCE + " -pinion_file one.h5 -wheel_file folder/../one.h5"),
     Case("meshes of two gears in one file", r"one.msh.*(both|two|pinion.*wheel)", "{design} -pinion_mesh_output one.msh -wheel_mesh_output one.msh"),
-    Case("mesh of a gear over the drawing", r"would overwrite pinion.msh", "{design} -drawing pinion.msh"),
+    Case("mesh of a gear over the drawing", r"drawing: 'pinion.msh' is the file of option -pinion_mesh_output, too", "{design} -drawing pinion.msh"),
     Case("drawing over the drive file", r"drawing: would overwrite gears.yaml", "{design} -drawing gears.yaml"),
     Case("mesh of a gear that is a pipe", r"'pipe.msh' is no name for a file", "{design} -wheel_mesh_output pipe.msh", before=piped("pipe.msh")),
     Case("drive file with a byte order mark", r"", "{design}", kind="good", leaves=MADE, before=gears("drive:", "\ufeffdrive:")),

@@ -27,7 +27,7 @@ sweep_positions: 3
 
 def run(*arguments, ranks=0):
     # The page is tested apart.
-    page = ["-report", "none"] if arguments[0] not in ("reduce", "simulate", "evaluate") and "-report" not in arguments else []
+    page = ["-report", "none"] if arguments[0] in ("run", "drive.yaml", "accurate.yaml") and "-report" not in arguments else []
     command = [ELASTOGEAR, *arguments, *page]
     if ranks:
         command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *command]
