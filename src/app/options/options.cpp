@@ -342,12 +342,6 @@ bool Options::begins_key(const std::string& word) const {
                      [&](const OptionSpec& spec) { return spec.name.starts_with(word + "_"); });
 }
 
-bool Options::has_of_body(const std::string& name, const std::string& key) const {
-  return std::any_of(known_.begin(), known_.end(), [&](const OptionSpec& spec) {
-    return spec.name == name + "_" + key || (spec.name.starts_with('<') && spec.name.ends_with(">_" + key));
-  });
-}
-
 bool Options::is_of_other_verb(const std::string& name) const {
   return !has(own_, name) && has(known_, name);
 }

@@ -97,8 +97,6 @@ class Options {
   bool is_own(const std::string& name) const { return has(own_, name); }
   /// Does a key of any verb begin with this word and an underscore, whatever words stand for placeholders?
   bool begins_key(const std::string& word) const;
-  /// Is `key` one of a body or gear of this name: "pinion_file" of "pinion" and "file"?
-  bool has_of_body(const std::string& name, const std::string& key) const;
   /// Is this key, `given` or not, one of another verb alone?
   bool is_of_other_verb(const std::string& name) const;
   const std::string& verb() const { return verb_; }
