@@ -61,7 +61,7 @@ Motion motion_at(const SetOfBody& set, Range times) {
   const RecoveredBody& body = set.body;
   const io::BodyHistory& history = body.run.history;
   const auto at = [&](const Eigen::MatrixXd& all) { return all.middleCols(times.begin, times.count); };
-  Motion motion{times, at(history.q), body.relaxes() ? at(history.w) : Eigen::MatrixXd()};
+  Motion motion{times, at(history.q), body.relaxes() ? at(history.w) : Eigen::MatrixXd(0, times.count)};
   const StaticResponseOfRun* const known = body.known();
   if (!known) return motion;
   motion.split.q_d = at(known->q);
