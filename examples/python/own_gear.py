@@ -28,7 +28,7 @@ torque = result.pair("pinion:wheel").torque[-1][2]  # on the wheel, about the ax
 print(f"contact force {force} N")
 for each in stress.sets:
     print(f"{each.body} {each.set}: {1e-6 * each.von_mises[-1].max():.1f} MPa"
-          f" +- {1e-6 * each.peak_error[-1]:.1f}")
+          f" +- {1e-6 * each.total_peak_error[-1]:.1f}")
 
 picture = result.plot()
 picture.figure.savefig("contact_force.png")

@@ -31,7 +31,7 @@ except ImportError as _error:
 from ._elastogear import (Body, Error, Mesh, State, __version__, describe, git_hash,
                           option_table, read_mesh, von_mises)
 from .results import Evaluation, Life, Result, Stress, StressSet
-from .runs import Drive, Quantity, Report, Simulation, System, Warning
+from .runs import Count, Drive, Facts, Quantity, Report, Simulation, System, Warning
 
-__all__ = ["Body", "Drive", "Error", "Evaluation", "Life", "Mesh", "Quantity", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
+__all__ = ["Body", "Count", "Drive", "Error", "Evaluation", "Facts", "Life", "Mesh", "Quantity", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
            "System", "Warning", "__version__", "describe", "git_hash", "option_table", "read_mesh", "von_mises"]

@@ -1,8 +1,11 @@
-"""Pictures by matplotlib, one line each. Every function returns the axes that it has drawn in."""
+"""Pictures by matplotlib, one line each. Every function returns the axes that it has drawn in.
+
+The time of a sweep is the roll angle in pitches, that of an equilibrium the load factor; the axis says so.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +24,12 @@ def _axes(axes: Any, **options: Any) -> Any:
     return plt.subplots(layout="constrained", **options)[1]
 
 
-def _time(axes: Any, time: NDArray[Any]) -> NDArray[Any]:
-    axes.set_xlabel("time in ms")
+def _time(axes: Any, of: Union["Result", "Stress"]) -> NDArray[Any]:
+    label, factor = {"sweep": ("roll angle in pitches", 1.0), "static": ("load factor", 1.0)}.get(
+        of.provenance.get("option_analysis", ""), ("time in ms", _MS))
+    axes.set_xlabel(label)
     axes.grid(alpha=0.3)
-    return _MS * time
+    return factor * of.time
 
 
 def contact_force(result: "Result", pair: Optional[str] = None, axes: Any = None) -> Any:
@@ -32,7 +37,7 @@ def contact_force(result: "Result", pair: Optional[str] = None, axes: Any = None
     pair = pair or result.pairs[0]
     axes = _axes(axes)
     force = np.linalg.norm(result.pair(pair).force, axis=1)
-    axes.plot(_time(axes, result.time), force, label=pair)
+    axes.plot(_time(axes, result), force, label=pair)
     axes.set_ylabel("contact force in N")
     axes.legend()
     return axes
@@ -44,7 +49,7 @@ def speed(result: "Result", axes: Any = None) -> Any:
     for body in result.bodies:
         rates = result.body(body).s_dot
         for i in range(rates.shape[1]):
-            axes.plot(_time(axes, result.time), rates[:, i], label=body if rates.shape[1] == 1 else f"{body} {i}")
+            axes.plot(_time(axes, result), rates[:, i], label=body if rates.shape[1] == 1 else f"{body} {i}")
     axes.set_ylabel("speed in rad/s or m/s")
     axes.legend()
     return axes
@@ -55,20 +60,22 @@ def energies(result: "Result", axes: Any = None) -> Any:
     axes = _axes(axes)
     for name, energy in result.energies.items():
         if np.any(energy != 0):
-            axes.plot(_time(axes, result.time), energy, label=name)
+            axes.plot(_time(axes, result), energy, label=name)
     axes.set_ylabel("energy in J")
     axes.legend()
     return axes
 
 
 def peak_stress(stress: "Stress", axes: Any = None) -> Any:
-    """Largest von Mises stress of each set over the time, MPa, with its estimated error where it is known."""
+    """Largest von Mises stress of each set over the time, MPa, with its estimated error by all causes
+    where one is known."""
     axes = _axes(axes)
     for each in stress.sets:
-        time, peak = _time(axes, stress.time), _MPA * each.von_mises.max(axis=1)
+        time, peak = _time(axes, stress), _MPA * each.von_mises.max(axis=1)
         axes.plot(time, peak, label=f"{each.body} {each.set}")
-        if each.peak_error is not None:
-            axes.fill_between(time, peak - _MPA * each.peak_error, peak + _MPA * each.peak_error, alpha=0.3)
+        error = each.total_peak_error
+        if error is not None:
+            axes.fill_between(time, peak - _MPA * error, peak + _MPA * error, alpha=0.3)
     axes.set_ylabel("von Mises stress in MPa")
     axes.legend()
     return axes

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, KeysView, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,11 +28,21 @@ def _stamp(path: str) -> tuple[int, ...]:
     return state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns
 
 
+def _sum(parts: list[Optional[Array]]) -> Optional[Array]:
+    """Sum of the parts that there are; None where there is none."""
+    known = [part for part in parts if part is not None]
+    return np.sum(known, axis=0) if known else None
+
+
 class _Histories:
     """Arrays of a file, read when they are asked for first."""
 
     def __init__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)
+
+    def __repr__(self) -> str:
+        arrays = ", ".join(f"{name} {np.shape(value)}" for name, value in self.__dict__.items() if isinstance(value, np.ndarray))
+        return f"<elastogear.{type(self).__name__}: {arrays}>"
 
 
 class BodyHistory(_Histories):
@@ -173,6 +184,9 @@ class StressSet:
     mesh_error    (n_t, n), Pa, estimated error of von_mises by the mesh, or None
     contact_error    (n_t, n), Pa, estimated error of von_mises by the contact's resolution, or None
     time_error    (n_t, n), Pa, estimated error of von_mises by the steps in time, or None
+
+    total_error         (n_t, n), Pa, sum of the estimated errors of von_mises by all causes, or None
+    total_peak_error    (n_t,), Pa, the same of the largest von Mises stress of the set, or None
     """
 
     body: str
@@ -191,6 +205,20 @@ class StressSet:
     def __init__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)
 
+    @property
+    def total_error(self) -> Optional[Array]:
+        """Sum of the estimated errors of von_mises by all causes, (n_t, n), Pa; None where none is estimated."""
+        return _sum([self.error, self.mesh_error, self.contact_error, self.time_error])
+
+    @property
+    def total_peak_error(self) -> Optional[Array]:
+        """Sum of the estimated errors of the largest von Mises stress by all causes, (n_t,), Pa; None where none is
+        estimated."""
+        steps, peaks = np.arange(len(self.von_mises)), self.von_mises.argmax(axis=1)
+        at_peaks = [None if each is None else each[steps, peaks]
+                    for each in (self.mesh_error, self.contact_error, self.time_error)]
+        return _sum([self.peak_error, *at_peaks])
+
     def __repr__(self) -> str:
         return f"<elastogear.StressSet {self.body} {self.set}: {len(self.node)} nodes>"
 
@@ -198,7 +226,7 @@ class StressSet:
 class Stress:
     """A stress file.
 
-    time         (n_t,), s
+    time         (n_t,), as of the result
     sets         list of StressSet; one of them by stress["pinion", "root"]
     provenance   options in force, versions
     path         of the file
@@ -240,6 +268,7 @@ class Evaluation:
         evaluation.error("transmission_error/peak_to_peak")
 
     A path is that of the file, "CASE/PAIR/transmission_error/mean", or its end where that is of one figure alone.
+    An evaluation is a mapping of paths: `for path in evaluation`, `path in evaluation`, `len(evaluation)`.
 
     provenance, path, report    as of Result
     """
@@ -260,10 +289,37 @@ class Evaluation:
         if path in self._items:
             return self._items[path]
         found = [each for each in self._items if each.endswith("/" + path)]
-        if len(found) != 1:
-            raise KeyError(f"{path}: " + ("is none of the figures in paths" if not found else
-                                          "may be " + " or ".join(found)))
-        return self._items[found[0]]
+        if len(found) == 1:
+            return self._items[found[0]]
+        if found:
+            raise KeyError(f"{path}: may be " + " or ".join(found))
+        below = [each for each in self._items if f"/{path.rstrip('/')}/" in f"/{each}"]
+        if below:
+            raise KeyError(f"{path}: is no figure; below it are {', '.join(below)}")
+        ends = {each.split("/", depth)[-1]: each for depth in range(3) for each in self._items}
+        near = list(dict.fromkeys(ends[end] for end in difflib.get_close_matches(path, ends, n=3)))
+        raise KeyError(f"{path}: is none of the figures in paths" + (f"; near it are {', '.join(near)}" if near else ""))
+
+    def find(self, word: str) -> list[str]:
+        """Paths that have a word in them, `evaluation.find("tension")`."""
+        return [path for path in self._items if word in path]
+
+    def keys(self) -> KeysView[str]:
+        """All figures."""
+        return self._items.keys()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __contains__(self, path: object) -> bool:
+        try:
+            self._find(str(path))
+        except KeyError:
+            return False
+        return True
 
     def __getitem__(self, path: str) -> Any:
         return self._find(path)[0]

@@ -7,7 +7,7 @@ import csv
 import json
 import os
 import warnings
-from typing import Any, Callable, Iterator, Mapping, Optional, Union
+from typing import Any, Callable, Dict, Iterator, Mapping, Optional, Union
 
 from . import _elastogear as _library
 from .results import Evaluation, Life, Result, Stress
@@ -43,6 +43,28 @@ class Quantity(float):
     __repr__ = __str__
 
 
+class Count(int):
+    """A whole number of the design, as that of teeth; its `unit` is "1"."""
+
+    unit = "1"
+
+
+class Facts(Dict[str, Union[Quantity, Count, str]]):
+    """Numbers of a part by their names, with blanks or underscores: `facts["tip diameter"]`, `facts["tip_diameter"]`."""
+
+    def __missing__(self, name: str) -> Union[Quantity, Count, str]:
+        plain = name.replace("_", " ")
+        if plain in self:
+            return self[plain]
+        raise KeyError(f"{name}: there is no such fact; there are: {', '.join(self)}")
+
+
+def _fact(name: str, value: Union[float, str], unit: str) -> Union[Quantity, Count, str]:
+    if isinstance(value, str):
+        return value
+    return Count(value) if name == "teeth" else Quantity(value, unit)
+
+
 class Report:
     """Everything that a verb has said.
 
@@ -69,7 +91,7 @@ class Report:
 
 
 def _plain(value: Any) -> Any:
-    """Arrays and paths as what YAML knows; keys without a value are left out."""
+    """Arrays, paths and results as what YAML knows; keys without a value are left out."""
     if isinstance(value, Mapping):
         return {key: _plain(part) for key, part in value.items() if part is not None}
     if isinstance(value, (list, tuple)):
@@ -78,12 +100,24 @@ def _plain(value: Any) -> Any:
         return os.fspath(value)
     if hasattr(value, "tolist"):  # of numpy
         return value.tolist()
+    if isinstance(value, (_library.Body, Evaluation, Life, Result, Stress)):
+        return value.path
     return value
+
+
+def _with_variants(options: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Variants that are a dict of their keys as the list of their names, with a section of keys for each."""
+    variants = options.get("variants")
+    if not isinstance(variants, Mapping):
+        return options
+    return {**options, "variants": list(variants),
+            **{f"variant_{name}": dict(keys or {}) for name, keys in variants.items()}}
 
 
 def _flat(options: Mapping[str, Any], section: str = "") -> dict[str, Any]:
     """Keys of sections joined with them, {"contact": {"friction": 0.1}} as {"contact_friction": 0.1}."""
     flat: dict[str, Any] = {}
+    options = options if section else _with_variants(options)
     for key, value in options.items():
         if isinstance(value, Mapping):
             flat.update(_flat(value, f"{section}{key}_"))
@@ -128,8 +162,9 @@ class System:
         self._text = ""
         self._name = name or "drive"
         self._options = _flat(options)
+        self._last = ""  # result of the last simulate or sweep
         if isinstance(source, Mapping):
-            self._text = _yaml(source)
+            self._text = _yaml(_with_variants(source))
         elif name is not None:
             raise _library.Error("a name is for a dict; that of a file is its own")
         else:
@@ -166,7 +201,7 @@ class System:
         """
         if forces is None and on_step is None:
             report = self._run("simulate", options, progress)
-            path = next(file for file in report.files if not file.endswith(".csv"))
+            self._last = path = next(file for file in report.files if not file.endswith(".csv"))
             if os.path.isdir(path):
                 raise _library.Error(f"{path}: holds several cases; Drive.sweep returns them all")
             return Result(path, report)
@@ -177,7 +212,8 @@ class System:
                     on_step(simulation)
                 if progress is not None:
                     progress("simulate", simulation.state.time)
-        return Result(os.path.abspath(output), None)
+        self._last = os.path.abspath(output)
+        return Result(self._last, None)
 
     def _name_of_result(self) -> str:
         stem = os.path.splitext(os.path.basename(self._files[0]))[0] if self._files else self._name
@@ -209,12 +245,12 @@ class Drive(System):
     """A gear drive: a drive file (docs/drives.md), or a dict with the same keys.
 
     facts     numbers of the design, {"pinion": {"tip diameter": 0.0647, ...}, "pinion:wheel": {...}}: each a
-              Quantity; flank forms are texts
+              Quantity, those of teeth a Count; flank forms are texts
 
     str(drive) is a table of the facts.
     """
 
-    facts: dict[str, dict[str, Union[Quantity, str]]]
+    facts: dict[str, Facts]
 
     def __init__(self, source: Source, *, name: Optional[str] = None, **options: Any) -> None:
         super().__init__(source, name=name, **options)
@@ -222,7 +258,7 @@ class Drive(System):
 
     def _derive(self) -> None:
         self.facts = {
-            part: {name: value if isinstance(value, str) else Quantity(value, unit) for name, value, unit in facts}
+            part: Facts({name: _fact(name, value, unit) for name, value, unit in facts})
             for part, facts in _library.drive_facts(self._given({})).items()}
 
     def replace(self, *, name: Optional[str] = None, **options: Any) -> "Drive":
@@ -251,7 +287,7 @@ class Drive(System):
         """Facts that are others than those of another drive, by part and name: both values; None: it has none."""
         found: dict[str, dict[str, tuple[Any, Any]]] = {}
         for part in {**self.facts, **other.facts}:
-            mine, its = self.facts.get(part, {}), other.facts.get(part, {})
+            mine, its = self.facts.get(part, Facts()), other.facts.get(part, Facts())
             for name in {**mine, **its}:
                 if mine.get(name) != its.get(name):
                     found.setdefault(part, {})[name] = (mine.get(name), its.get(name))
@@ -267,12 +303,13 @@ class Drive(System):
 
     def sweep(self, *, progress: Optional[Progress] = None, **options: Any) -> list[Result]:
         """Equilibria at many roll angles, as `elastogear simulate -analysis sweep` finds them: one result for each
-        torque and variant, whose time is the roll angle in pitches and whose `inputs` tell the case.
+        torque and variant, whose time is the roll angle in pitches and whose `inputs` tell the case. Variants may be
+        a dict of their keys, `variants={"nominal": {}, "tilted": {"wheel": {"skew": "0.02 deg"}}}`.
 
         Under mpirun all ranks must call it, and share the work.
         """
         report = self._run("simulate", {"analysis": "sweep", **options}, progress)
-        path = report.files[0]
+        self._last = path = report.files[0]
         if not os.path.isdir(path):
             return [Result(path, report)]
         with open(os.path.join(path, "cases.csv"), encoding="utf-8", newline="") as file:
@@ -286,10 +323,15 @@ class Drive(System):
         Under mpirun all ranks must call it, and share the work.
         """
         report = self._run("run", options, progress)
+        self._last = ""  # it writes the one that evaluate reads where none is named
         return Evaluation([file for file in report.files if file.endswith(".h5")][-1], report)
 
     def evaluate(self, *, progress: Optional[Progress] = None, **options: Any) -> Evaluation:
-        """Reads off the last result, or that of the option `result`, what `elastogear evaluate` does."""
+        """Reads off what `elastogear evaluate` does: from the result of this drive's last simulate() or sweep(), or
+        from that of the option `result`.
+        """
+        if self._last and "result" not in {**self._options, **_flat(options)}:
+            options["result"] = self._last
         report = self._run("evaluate", options, progress)
         return Evaluation(report.files[0], report)
 

@@ -12,10 +12,11 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 PLACE = re.compile(r"`((?:src|include|tests|scripts|studies|examples)/[\w./]+):([\w:~]+)`")
 MODULE_ROW = re.compile(r"^\| `(\w+)` \| \d \| [\w ]+ \| (.+) \|$", re.MULTILINE)
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/*/*.md", "*/README.md", "examples/*/README.md")
-USING = ("tutorial", "drives", "examples", "evaluation", "life", "polymers", "python", "report", "file_format")
+USING = ("tutorial", "drives", "systems", "examples", "evaluation", "life", "polymers", "python", "report", "file_format")
 KNOWING = ("theory/README", "notation", "bases", "validation/README", "performance", "architecture")
 PYTHON = {
-    "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report", "elastogear.Quantity"],
+    "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report", "elastogear.Quantity",
+                               "elastogear.Count", "elastogear.Facts"],
     "States of a simulation": ["elastogear.State", *(f"elastogear._elastogear.{part}State" for part in ("Body", "Pair", "Bushing", "Load", "Sensor"))],
     "Results": ["elastogear.Result", *(f"elastogear.results.{part}History" for part in ("Body", "Pair", "Sensor")),
                 "elastogear.Stress", "elastogear.StressSet", "elastogear.Evaluation", "elastogear.Life"],

@@ -61,6 +61,12 @@ class Runs(WithDrive):
         self.assertEqual(root.stress.shape, (*root.von_mises.shape, 6))
         self.assertEqual(root.mesh_error.shape, root.von_mises.shape)
         np.testing.assert_allclose(eg.von_mises(root.stress[-1]), root.von_mises[-1])
+        parts = [each for each in (root.error, root.mesh_error, root.contact_error, root.time_error) if each is not None]
+        np.testing.assert_allclose(root.total_error, sum(parts))
+        self.assertTrue(np.all(root.total_peak_error >= root.peak_error))
+        peak = root.von_mises[-1].argmax()
+        self.assertGreaterEqual(root.total_peak_error[-1], root.peak_error[-1] + root.mesh_error[-1, peak])
+        self.assertIn("force (", repr(result.pair("pinion:wheel")))
         with open("dict.yaml", "w", encoding="utf-8") as file:
             json.dump(SPUR, file)
         done = command("recover", "dict.yaml", "-result", result.path, "-output", "program_stress.h5")
@@ -79,6 +85,7 @@ class Runs(WithDrive):
         for picture in [result.plot(), stress.plot(), plots.energies(result), plots.speed(result),
                         plots.stress_map(root), plots.mesh(self.drive.meshes()["wheel"])]:
             picture.figure.canvas.draw()
+            self.assertIn(picture.get_xlabel(), ["load factor", "x in mm"])
             matplotlib.pyplot.close(picture.figure)
 
     def test_a_result_whose_file_is_written_anew_is_no_other_result(self):
@@ -96,6 +103,10 @@ class Runs(WithDrive):
         self.assertEqual(facts["pinion"]["pitch diameter"].unit, "m")
         self.assertEqual(str(facts["pinion"]["pitch diameter"]), "0.051 m")
         self.assertEqual(facts["wheel"]["teeth"], 43)
+        self.assertEqual((str(facts["wheel"]["teeth"]), facts["wheel"]["teeth"].unit), ("43", "1"))
+        self.assertEqual(facts["pinion"]["pitch_diameter"], facts["pinion"]["pitch diameter"])
+        with self.assertRaisesRegex(KeyError, "pitch: there is no such fact; there are: teeth, "):
+            facts["pinion"]["pitch"]
         self.assertAlmostEqual(facts["pinion:wheel"]["ratio"], 43 / 17)
         self.assertEqual(copy.deepcopy(facts["pinion"]["bore"]).unit, "m")
 
@@ -126,9 +137,24 @@ class Runs(WithDrive):
         self.assertEqual(first.unit(path), "Pa")
         self.assertGreater(first.error(path), 0)
         self.assertIsNone(first.error("teeth/contact_ratio"))
+        self.assertTrue(path in first and "root/pinion" not in first)
+        self.assertEqual((len(first), list(first)), (len(first.paths), list(first.keys())))
+        self.assertTrue(any(each.endswith(path) for each in first.find("tension")))
+        for wrong, message in [("root/pinion", "below it are .*/largest_tension"), ("root/pinion/largest_tensio", "near it are .*/largest_tension")]:
+            with self.assertRaisesRegex(KeyError, message):
+                first[wrong]
         again = drive.run(pinion_file="whole_pinion.h5", wheel_file="whole_wheel.h5")
         self.assertEqual((again.report["reduce"], again.report["simulate"]), ("the bodies are there", "the result is there"))
         self.assertEqual(again[path], first[path])
+
+    def test_evaluate_reads_what_was_swept_last(self):
+        drive = eg.Drive(SPUR, name="varied", sweep_positions=2, pinion_file="pinion.h5", wheel_file="wheel.h5")
+        drive.sweep()
+        self.assertEqual(len(drive.evaluate().find("KHbeta")), 1)
+        results = drive.sweep(variants={"nominal": {}, "tilted": {"wheel": {"skew": "0.02 deg"}}})
+        self.assertEqual([result.inputs["variant"] for result in results], ["nominal", "tilted"])
+        self.assertEqual(len(drive.evaluate().find("KHbeta")), 2)
+        self.assertEqual(len(drive.evaluate(result=results[0]).find("KHbeta")), 1)
 
     def test_messages_are_those_of_the_program(self):
         def message(**options):
