@@ -53,9 +53,6 @@ constexpr const char* kShared[] = {"size",           "element_order",   "refinem
 const std::vector<std::string> kOfDrive = {"mesh",          "output", "stiffness", "mass",
                                            "matrix_format", "dofs",   "nodes",     "instance"};
 
-// Those that bodies of simulate have, too.
-constexpr const char* kAlsoOfBodies[] = {"torque", "mass"};
-
 bool any_material(const Options& options) {
   const auto all = options.given_to_verb();
   return std::any_of(all.begin(), all.end(),
@@ -82,11 +79,13 @@ std::vector<std::string> given_of(const Options& options, const OptionTable& tab
   return names;
 }
 
-// Has the table a key of this name for the gear, its own one or one of any gear?
-bool has_of_gear(const OptionTable& table, const std::string& gear, const std::string& key) {
-  return std::any_of(table.begin(), table.end(), [&](const OptionSpec& spec) {
-    return spec.name == gear + "_" + key || (spec.name.starts_with('<') && spec.name.ends_with(">_" + key));
-  });
+// Is this a key of the gear, its own one or one of any gear or body?
+bool is_of_gear(const Options& options, const OptionTable& keys, const std::string& gear,
+                const std::string& key) {
+  return options.has_key("<body>_" + key) ||
+         std::any_of(keys.begin(), keys.end(), [&](const OptionSpec& spec) {
+           return spec.name == gear + "_" + key || spec.name == "<gear>_" + key;
+         });
 }
 
 // Nothing would read what is the whole drive's, or what a drive sets itself, in the section of a gear.
@@ -95,7 +94,7 @@ void refuse_keys_of_drive(const Options& options) {
   for (const OptionTable& more : {cylindrical_table(), worm_table()})
     keys.insert(keys.end(), more.begin(), more.end());
   const auto is_lost = [&](const std::string& gear, const std::string& key) {
-    return options.given(gear + "_" + key) && !has_of_gear(keys, gear, key) && !holds(kAlsoOfBodies, key);
+    return options.given(gear + "_" + key) && !is_of_gear(options, keys, gear, key);
   };
   for (const std::string& gear : options.list("gears")) {
     for (const OptionSpec& spec : keys)
