@@ -11,7 +11,6 @@
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
 #include "app/gear/worm_options.h"
-#include "app/tables/body_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 
@@ -80,20 +79,22 @@ std::vector<std::string> given_of(const Options& options, const OptionTable& tab
   return names;
 }
 
-// Has the table a key of this name for the gear, its own one or one of any gear or body?
-bool has_of_gear(const OptionTable& table, const std::string& gear, const std::string& key) {
-  return std::any_of(table.begin(), table.end(), [&](const OptionSpec& spec) {
-    return spec.name == gear + "_" + key || (spec.name.starts_with('<') && spec.name.ends_with(">_" + key));
-  });
+// Is this a key of the gear, its own one or one of any gear or body?
+bool is_of_gear(const Options& options, const OptionTable& keys, const std::string& gear,
+                const std::string& key) {
+  return options.has_key("<body>_" + key) ||
+         std::any_of(keys.begin(), keys.end(), [&](const OptionSpec& spec) {
+           return spec.name == gear + "_" + key || spec.name == "<gear>_" + key;
+         });
 }
 
 // Nothing would read what is the whole drive's, or what a drive sets itself, in the section of a gear.
 void refuse_keys_of_drive(const Options& options) {
   OptionTable keys = table_of(kDriveRows, design_rows());
-  for (const OptionTable& more : {cylindrical_table(), worm_table(), body_table()})
+  for (const OptionTable& more : {cylindrical_table(), worm_table()})
     keys.insert(keys.end(), more.begin(), more.end());
   const auto is_lost = [&](const std::string& gear, const std::string& key) {
-    return options.given(gear + "_" + key) && !has_of_gear(keys, gear, key);
+    return options.given(gear + "_" + key) && !is_of_gear(options, keys, gear, key);
   };
   for (const std::string& gear : options.list("gears")) {
     for (const OptionSpec& spec : keys)

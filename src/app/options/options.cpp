@@ -337,6 +337,11 @@ std::vector<std::string> Options::list_with_files(const std::string& name) const
   return all;
 }
 
+bool Options::has_key(const std::string& pattern) const {
+  return std::any_of(known_.begin(), known_.end(),
+                     [&](const OptionSpec& spec) { return spec.name == pattern; });
+}
+
 bool Options::begins_key(const std::string& word) const {
   return std::any_of(known_.begin(), known_.end(),
                      [&](const OptionSpec& spec) { return spec.name.starts_with(word + "_"); });

@@ -95,6 +95,8 @@ class Options {
   std::string unit_of(const std::string& name) const;
   /// Is it one of the verb's own options?
   bool is_own(const std::string& name) const { return has(own_, name); }
+  /// Has a verb this key, letter by letter, placeholders and all: "<body>_torque"?
+  bool has_key(const std::string& pattern) const;
   /// Does a key of any verb begin with this word and an underscore, whatever words stand for placeholders?
   bool begins_key(const std::string& word) const;
   /// Is this key, `given` or not, one of another verb alone?
