@@ -1,5 +1,5 @@
 """The misuses of the verb run, and of the program without a verb."""
-from misuse_case import Case, continued, copied, encoded, flipped, foldered, piped, reworded, running
+from misuse_case import Case, continued, copied, encoded, first, flipped, foldered, piped, reworded, running
 
 HALT_IN_RESULT = {"": "stop", "CALL": "write", "FILE": "gears_result"}
 
@@ -27,6 +27,7 @@ RUN = [
     Case("run beyond all meshes", r"refinement", "{run} -refinement 1e6"),
     Case("run with an option of wear", r"-coefficient belongs to wear; run does not read it", "{run} -coefficient 1e-18"),
     Case("run with a misspelt option", r"nearest known option is -accuracy .*'elastogear run -help all'", "{run} -acuracy 5"),
+    Case("run of several torques again", r"", "{run} -torques 50,100 -sweep_positions 1", kind="good", leaves=r"gears_(result/|evaluation).*", before=first("{run} -torques 50,100 -sweep_positions 1")),
     Case("run whose body is a folder", r"'folder' is no name for a file: a folder has it", "{run} -pinion_file folder"),
     Case("run whose body is a pipe", r"'pipe.h5' is no name for a file", "{run} -pinion_file pipe.h5", before=piped("pipe.h5")),
     Case("run whose body is a result", r"pinion_file: 'gears_result.h5' is the file of option -output, too", "{run} -pinion_file gears_result.h5"),

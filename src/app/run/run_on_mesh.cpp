@@ -138,9 +138,9 @@ std::string evaluation_file(const RunOnMesh& of) { return evaluate_with_files(of
 std::string result_file(const RunOnMesh& of) { return evaluate_with_files(of).text("result"); }
 
 void require_places(const RunOnMesh& of, const Drive& drive) {
-  const std::string evaluation = evaluation_file(of);
-  std::vector<std::string> files = {result_file(of), evaluation,
-                                    fs::path(evaluation).replace_extension(".json").string()};
+  const std::string evaluation = evaluation_file(of), result = result_file(of);
+  std::vector<std::string> files = {evaluation, fs::path(evaluation).replace_extension(".json").string()};
+  if (fs::path(result).extension() == ".h5") files.push_back(result);  // else it is a folder of cases
   for (const std::string& file : files) place_of_output(file);
   std::vector<Outputs> outputs = {{"output", files}};
   for (const DriveMember& member : drive.members)
