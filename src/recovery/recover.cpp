@@ -61,7 +61,7 @@ Motion motion_at(const SetOfBody& set, Range times) {
   const RecoveredBody& body = set.body;
   const io::BodyHistory& history = body.run.history;
   const auto at = [&](const Eigen::MatrixXd& all) { return all.middleCols(times.begin, times.count); };
-  Motion motion{times, at(history.q), at(history.w)};
+  Motion motion{times, at(history.q), body.relaxes() ? at(history.w) : Eigen::MatrixXd()};
   const StaticResponseOfRun* const known = body.known();
   if (!known) return motion;
   motion.split.q_d = at(known->q);

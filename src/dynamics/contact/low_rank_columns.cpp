@@ -1,5 +1,7 @@
 #include "dynamics/contact/low_rank_columns.h"
 
+#include <algorithm>
+
 namespace elastogear::dynamics {
 namespace {
 
@@ -16,6 +18,7 @@ void append_block(Index row, const MatrixXd& block, Eigen::SparseMatrix<double>&
   const Index first = A.cols();
   A.makeCompressed();
   A.conservativeResize(A.rows(), first + block.cols());
+  std::fill_n(A.outerIndexPtr() + first + 1, block.cols(), 0);  // as of columns that are not begun yet
   A.reserve(block.size());
   for (Index j = 0; j < block.cols(); ++j) {
     A.startVec(first + j);
