@@ -97,6 +97,7 @@ void serialize_state(Run& run, TS ts, Archive& archive) {
   archive(run.kinetic_energy);
   archive(run.n_outputs);
   archive(run.touches);
+  archive(run.energy);
   archive(run.control.displacement);
   archive(run.control.stress);
   archive(run.short_steps);

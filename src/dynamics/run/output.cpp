@@ -203,6 +203,7 @@ void enter_step(Run& run, TS ts, int step, double time) {
   run.touches = std::any_of(run.last->pairs.begin(), run.last->pairs.end(),
                             [](const model::PairState& pair) { return pair.count > 0; });
   const model::Energies& energy = run.last->energy;
+  run.energy = energy.kinetic + energy.elastic;
   if (step == 0)
     run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact + energy.bushing;
   if (is_due(run, step)) observe(run);

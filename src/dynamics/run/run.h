@@ -51,6 +51,7 @@ struct Run {
   StepControl control;
   std::vector<TimeError> time_error = {};  // of each body, of size 0 without a modal basis; empty: relaxes
   bool touches = false;                    // some bodies touch at the end of the last step
+  double energy = 0;                       // J, kinetic and elastic then
   double kinetic_energy = 0;               // J, after the last step of a relaxing run
   double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
   int short_steps = 0;                  // successive ones that Newton's failures keep far below nominal_dt

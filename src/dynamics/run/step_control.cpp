@@ -202,8 +202,7 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
     System& system = run->problem.system;
     const Eigen::VectorXd V = Eigen::VectorXd::Zero(system.size());  // without influence on the depth
     const ReadView u(U);
-    const model::Energies& last = run->last->energy;
-    const double allowed = kTouchEnergy * run->settings.step_error * (last.kinetic + last.elastic);
+    const double allowed = kTouchEnergy * run->settings.step_error * run->energy;
     if (system.depth_share(t, *u, V) > kFirstTouch || contact_energy(system, t, *u, V) > allowed)
       *accept = PETSC_FALSE;
   });
