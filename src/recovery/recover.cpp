@@ -61,7 +61,8 @@ Motion motion_at(const SetOfBody& set, Range times) {
   const RecoveredBody& body = set.body;
   const io::BodyHistory& history = body.run.history;
   const auto at = [&](const Eigen::MatrixXd& all) { return all.middleCols(times.begin, times.count); };
-  Motion motion{times, at(history.q), body.relaxes() ? at(history.w) : Eigen::MatrixXd(0, times.count)};
+  // A motion refers to the history. Of a body that does not relax nobody reads w.
+  Motion motion{times, at(history.q), at(body.relaxes() ? history.w : history.q)};
   const StaticResponseOfRun* const known = body.known();
   if (!known) return motion;
   motion.split.q_d = at(known->q);
@@ -106,7 +107,7 @@ void recover_part(const SetOfBody& set, const Motion& motion, Range nodes, io::S
   const bool adds = set.body.response != nullptr;
   Eigen::MatrixXd stress = adds ? modal_stress(set.elastic.stress, members, motion.split.q_d) + whole
                                 : modal_stress(set.elastic.stress, members, motion.q);
-  if (!set.elastic.relaxing.empty()) stress -= relaxed_stress(set.elastic, members, motion.w);  // Eq. (4.10)
+  if (set.body.relaxes()) stress -= relaxed_stress(set.elastic, members, motion.w);  // Eq. (4.10)
   part(result.stress) = stress;
   part(result.von_mises) = von_mises(stress);
   part(result.rankine) = rankine(stress);
