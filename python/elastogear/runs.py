@@ -44,9 +44,12 @@ class Quantity(float):
 
 
 class Count(int):
-    """A whole number of the design, as that of teeth; its `unit` is "1"."""
+    """A whole number of the design, as that of teeth, without a unit."""
 
-    unit = "1"
+    @property
+    def unit(self) -> str:
+        """Unit of a number without one."""
+        return "1"
 
 
 class Facts(Dict[str, Union[Quantity, Count, str]]):

@@ -93,16 +93,19 @@ void refuse_keys_of_drive(const Options& options) {
   OptionTable keys = table_of(kDriveRows, design_rows());
   for (const OptionTable& more : {cylindrical_table(), worm_table()})
     keys.insert(keys.end(), more.begin(), more.end());
+  const auto in_section = [](const std::string& gear, const std::string& key) {
+    return std::string(gear).append("_").append(key);
+  };
   const auto is_lost = [&](const std::string& gear, const std::string& key) {
-    return options.given(gear + "_" + key) && !is_of_gear(options, keys, gear, key);
+    return options.given(in_section(gear, key)) && !is_of_gear(options, keys, gear, key);
   };
   for (const std::string& gear : options.list("gears")) {
     for (const OptionSpec& spec : keys)
       require(spec.name.find('<') != spec.name.npos || !is_lost(gear, spec.name),
-              options.label(gear + "_" + spec.name), ": all gears of a drive have one ", spec.name,
+              options.label(in_section(gear, spec.name)), ": all gears of a drive have one ", spec.name,
               "; give it without the gear's name");
     for (const std::string& key : kOfDrive)
-      require(!is_lost(gear, key), options.label(gear + "_" + key),
+      require(!is_lost(gear, key), options.label(in_section(gear, key)),
               ": is for a single body; a drive makes the bodies of its gears of their data");
   }
 }
