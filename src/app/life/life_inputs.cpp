@@ -94,7 +94,7 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
     const auto value =
         parse<double>(unit.empty() ? fields[torque] : in_unit(table, fields[torque] + " " + unit, "N m"));
     require(value.has_value(), table, ": torque '", fields[torque], "' is no number");
-    require_torque_of_run(table + ", case '" + line + "'", path, *value);
+    require_torque_of_run(std::string(table).append(", case '").append(line).append("'"), path, *value);
     all.push_back({path, sense * *value, is_stress_file(path)});
   }
   require(!all.empty() && (variants.size() == 1 || !variant.empty()), table, ": ",
