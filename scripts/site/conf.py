@@ -15,7 +15,7 @@ primary_domain = "cpp"
 add_module_names = False
 toc_object_entries_show_parents = "hide"
 
-autodoc_default_options = {"members": True, "inherited-members": True, "undoc-members": True, "member-order": "bysource"}
+autodoc_default_options = {"members": True, "inherited-members": "object,int,float,dict", "undoc-members": True, "member-order": "bysource"}
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
 
