@@ -26,7 +26,8 @@ void multiply_dense(const double* rows, const Coordinates& q, Eigen::Ref<Eigen::
 void multiply_rows(const model::DenseRows& Psi, const std::vector<int>& members, const Coordinates& q,
                    Eigen::MatrixXd& sigma) {
   if (members.empty()) return;
-  if (are_consecutive(members)) return multiply_dense(&Psi(6 * members.front(), 0), q, sigma);
+  if (are_consecutive(members))
+    return multiply_dense(Psi.data() + 6 * members.front() * Psi.cols(), q, sigma);
   constexpr Eigen::Index kTogether = 256;  // nodes: fewer would pack q anew for each product
   const auto n = static_cast<Eigen::Index>(members.size());
   for (Eigen::Index first = 0; first < n; first += kTogether) {
