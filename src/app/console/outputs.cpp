@@ -44,7 +44,7 @@ std::vector<Input> inputs(const Options& options, const std::vector<Outputs>& ou
   return all;
 }
 
-// Of a file that need not exist.
+// The absolute path of a file without links; the file need not exist.
 std::string whole_path(const std::string& file) {
   std::error_code unknown;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(place_of_output(file)), unknown)

@@ -141,7 +141,8 @@ std::string unit_or_none(const std::string& text) {
   return unit == "1" || unit == "-" ? "" : unit;
 }
 
-// Of "speed m/s", "torque in kN m", "torque, kN m", "torque / kN m" and "torque/kN m".
+// Name and unit of a heading like "speed m/s", "torque in kN m", "torque, kN m" or "torque / kN m"; nothing
+// where it ends with no unit.
 std::optional<Heading> behind_words(const std::string& heading) {
   const auto blank = heading.rfind(' '), slash = heading.rfind('/');
   if (blank != heading.npos && slash != heading.npos && slash > blank + 1 && find(heading.substr(blank + 1)))

@@ -80,6 +80,13 @@ Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
 
 }  // namespace
 
+double stored_in_contact(const ContactState& contact) {
+  double energy = 0;
+  for (const PairContacts& pair : contact.pair)
+    for (const contact::ContactPoint& point : pair.points) energy += point.energy;
+  return energy + contact.stations.local_energy;
+}
+
 model::Snapshot snapshot(System& system, const State& x) {
   const ContactState& contact = system.observed_contacts(x);
   model::Snapshot result;
@@ -92,11 +99,8 @@ model::Snapshot snapshot(System& system, const State& x) {
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
     result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m) + system.residual_energy(b);
   }
-  for (std::size_t p = 0; p < contact.pair.size(); ++p) {
-    result.pairs.push_back(pair_state(system, x, p));
-    for (const contact::ContactPoint& point : contact.pair[p].points) result.energy.contact += point.energy;
-  }
-  result.energy.contact += contact.stations.local_energy;
+  for (std::size_t p = 0; p < contact.pair.size(); ++p) result.pairs.push_back(pair_state(system, x, p));
+  result.energy.contact = stored_in_contact(contact);
   add_markers(system, x, result);
   return result;
 }

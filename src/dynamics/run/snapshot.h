@@ -8,6 +8,9 @@
 
 namespace elastogear::dynamics {
 
+/// J, in penalties and in the half-spaces of stations, but for static responses of bodies.
+double stored_in_contact(const ContactState& contact);
+
 /// Bodies, pairs, bushings, loads, sensors and stored energies; dissipated, work and balance stay zero.
 model::Snapshot snapshot(System& system, const State& x);
 

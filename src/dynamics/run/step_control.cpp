@@ -6,6 +6,7 @@
 
 #include "dynamics/integrator/vec_view.h"
 #include "dynamics/run/run.h"
+#include "dynamics/run/snapshot.h"
 #include "elastogear/dynamics/advice.h"
 #include "elastogear/dynamics/generalized_alpha.h"
 
@@ -13,7 +14,7 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies may enter in their first step
-// Of the tolerated error of a step: what contact may store in the first step, over the energy of the motion.
+// Contact may store at most so many times step_error of the energy of the motion in the step of first touch.
 constexpr double kTouchEnergy = 2;
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
@@ -180,12 +181,9 @@ double step_to_output(const Run& run, double time, double dt, double longest) {
   return left / std::ceil(left / std::min(kLonger * dt, longest));
 }
 
-// J, that contact would store in the present state, in a penalty, in half-spaces and by static responses.
+// J, that contact would store in the present state, static responses included.
 double contact_energy(System& system, double t, ConstVector U, ConstVector V) {
-  const ContactState& contact = system.contacts(t, U, V);
-  double energy = contact.stations.local_energy;
-  for (const PairContacts& pair : contact.pair)
-    for (const contact::ContactPoint& point : pair.points) energy += point.energy;
+  double energy = stored_in_contact(system.contacts(t, U, V));
   for (std::size_t b = 0; b < system.bodies().size(); ++b) energy += system.residual_energy(b);
   return energy;
 }

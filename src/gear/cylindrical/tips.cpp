@@ -126,7 +126,7 @@ void choose_cutter(const CylindricalDrive& d, CylindricalGeometry& g, int i) {
   g.cutter[i] = {c.teeth.z, c.rho / d.m_n};
 }
 
-// Of teeth that are too thin.
+// The remedy where backlash makes teeth too thin; empty where there is hardly any.
 std::string backlash_remedy(const CylindricalDrive& d) {
   std::ostringstream text;
   if (d.j_n > kLeastTip * d.m_n)
