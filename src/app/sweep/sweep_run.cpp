@@ -135,6 +135,7 @@ std::string locked_file(const SweepJob& job) {
 // Units of an earlier sweep of equal input stay. One that has found nothing keeps no other from its name.
 void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
              const dynamics::Provenance& input) {
+  require_no_run(settings);
   const auto earlier =
       settings.resume == dynamics::Resume::discard ? std::nullopt : job.store.earlier_input();
   if (!earlier || !job.store.has_units()) return job.store.begin(input);

@@ -102,6 +102,13 @@ std::string differences(const ResumableSettings& settings, const Provenance& now
   return text;
 }
 
+void require_no_run(const ResumableSettings& settings) {
+  if (settings.resume == Resume::discard) return;
+  if (const auto run = left_behind(settings.output))
+    fail(settings.output, ".partial holds a run that did not end, until t = ", run->time,
+         " s. Another -output leaves it there, -resume discard removes it");
+}
+
 RunSummary resumable_run(const ResumableSettings& settings, const model::ResultHeader& header,
                          const Computation& computation) {
   std::optional<io::UnfinishedRun> earlier = earlier_run(settings, header);
