@@ -59,7 +59,7 @@ Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, con
   wheel.angle = hand * (turned / g.ratio - sense * closing);
   wheel.ratio = hand / g.ratio;
   wheel.width = design.face_width;
-  return {{worm, wheel}, {{0, 1}}};
+  return {{worm, wheel}, {{0, 1}}, {1, 2, 3, 4, 6}};  // half a space of the worm has one column
 }
 
 }  // namespace elastogear::drive
