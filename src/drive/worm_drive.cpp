@@ -18,7 +18,7 @@ bool is_coarse(const MeshDensity& by) { return by.size == gear::Size::tiny && by
 
 gear::WormCounts worm_counts(const MeshDensity& by, int z1) {
   gear::WormCounts n = gear::worm_counts(by.size, z1, by.order);
-  if (is_coarse(by)) n.flank = 3;
+  if (is_coarse(by)) n.flank = 3, n.fillet = 2;
   return gear::refined(n, z1, by.refinement);
 }
 
