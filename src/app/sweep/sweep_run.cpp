@@ -145,8 +145,10 @@ void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
           ". -resume anyway continues it with the present one, -resume discard begins anew");
   if (!other.empty()) print_item("warning", "continues a sweep with other input: " + other);
   const std::vector<SweepUnit> units = job.units();
-  const auto done =
-      std::count_if(units.begin(), units.end(), [&](const auto& u) { return job.store.has(u); });
+  const auto has = [&](const SweepUnit& unit) { return job.store.has(unit); };
+  const auto done = std::count_if(units.begin(), units.end(), has);
+  // An Error before the work where another version of the program left them.
+  if (done > 0) job.store.read(*std::find_if(units.begin(), units.end(), has));
   print_item("continued after", std::to_string(done) + " of " + std::to_string(units.size()) + " parts");
 }
 
