@@ -155,6 +155,22 @@ TEST(Checkpoint, continuation_with_steps_that_the_run_chooses_equals_the_whole_r
   expect_every_continuation_equal(model::Basis::modal, settings);
 }
 
+// In sums of steps as floating-point numbers the last one may end on time without being what is left.
+TEST(Checkpoint, continuation_into_the_last_step_equals_the_whole_run_to_the_bit) {
+  for (std::size_t n = 3; n < 20; ++n) {
+    TimeSettings settings = kSettings;
+    settings.dt = 0.005;
+    settings.end_time = static_cast<double>(n) * settings.dt;
+    const Recording whole = record(impact(model::Basis::modal), settings);
+    System system = impact(model::Basis::modal);
+    Rows rows;
+    ASSERT_EQ(whole.rows.size(), n + 1);
+    simulate(system, settings, into(rows), {}, {.state = whole.states[n - 2]});
+    ASSERT_LE(rows.size(), 2u);
+    EXPECT_EQ(rows.back(), whole.rows.back()) << n << " steps";
+  }
+}
+
 TEST(Checkpoint, stop_ends_the_run_with_a_state_to_go_on_from) {
   System first = impact(model::Basis::modal), second = impact(model::Basis::modal);
   Rows rows;
