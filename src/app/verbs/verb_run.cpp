@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -26,6 +27,7 @@
 #include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/evaluation/grid_convergence.h"
+#include "elastogear/io/record_file.h"
 
 namespace elastogear::app {
 namespace {
@@ -93,42 +95,95 @@ double number_on_rank_0(const std::function<double()>& number) {
   return value;
 }
 
-// Memory (bytes) and time (s) that one more mesh takes on rank 0, and the memory of its machine.
+// Time (s) and memory (bytes) that a mesh takes on rank 0.
 struct Cost {
-  double memory = 0, seconds = 0, machine = 0;
+  double seconds = INFINITY, memory = INFINITY;
 };
 
-bool is_affordable(const Cost& cost) { return cost.seconds <= kLongest && cost.memory <= cost.machine; }
+double memory_held() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
 
-// seconds: that a mesh took. Collective.
-Cost cost_of_finer(int mesh, int finer, double seconds) {
+// Of the machine, or less where ulimit says so.
+double memory_there() {
+  double most = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  for (const auto resource : {RLIMIT_RSS, RLIMIT_AS}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      most = std::min(most, static_cast<double>(limit.rlim_cur));
+  }
+  return most;
+}
+
+// Collective.
+bool is_affordable(const Cost& cost) {
+  return cost.seconds <= kLongest && cost.memory <= number_on_rank_0(memory_there);
+}
+
+// cost: of the mesh.
+Cost cost_of_finer(int mesh, int finer, const Cost& cost) {
   const double times = std::pow(kRefinements[finer] / kRefinements[mesh], kCost);
-  const double held = number_on_rank_0([] {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  return {times * cost.seconds, times * cost.memory};
+}
+
+std::string cost_file(const RunOnMesh& of, int mesh) {
+  std::ostringstream name;
+  name << folder_of_meshes(of.reduce) << "/cost_" << kRefinements[mesh] << ".h5";
+  return name.str();
+}
+
+// What the runs on a mesh took at most since its bodies were made: a later one that finds all there takes
+// next to nothing, which says nothing of the next mesh. Infinite where it is not known. Collective.
+Cost known_cost(const RunOnMesh& of, int mesh) {
+  const auto number = [&](std::size_t i) -> double {
+    try {
+      const io::StoredRecord record = io::read_record(cost_file(of, mesh));
+      return record.numbers.size() == 2 ? record.numbers[i] : INFINITY;
+    } catch (const Error&) {
+      return INFINITY;
+    }
+  };
+  return {number_on_rank_0([&] { return number(0); }), number_on_rank_0([&] { return number(1); })};
+}
+
+// now: what this run took. of_bodies: have its bodies been made, too? Collective.
+Cost cost_of(const RunOnMesh& of, int mesh, const Cost& now, bool of_bodies) {
+  const Cost known = of_bodies ? Cost{0, 0} : known_cost(of, mesh);
+  if (!std::isfinite(known.seconds)) return now;
+  const Cost most{std::max(now.seconds, known.seconds), std::max(now.memory, known.memory)};
+  number_on_rank_0([&] {
+    std::filesystem::create_directories(folder_of_meshes(of.reduce));
+    io::write_record(cost_file(of, mesh), {{}, {most.seconds, most.memory}});
+    return 0;
   });
-  const double machine = number_on_rank_0([] {
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  });
-  return {times * held, times * seconds, machine};
+  return most;
+}
+
+// Collective.
+Cost timed(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  return {number_on_rank_0([&] { return taken.count(); }), number_on_rank_0(memory_held)};
 }
 
 // The next finer mesh. Those that would miss the accuracy asked are passed over as far as one beyond them is
-// affordable. seconds: that this mesh took.
-int finer_mesh(int mesh, double error, double accuracy, double seconds) {
+// affordable. cost: of this mesh.
+int finer_mesh(int mesh, double error, double accuracy, const Cost& cost) {
   const double least = evaluation::least_refinement(error, accuracy, kRefinements[mesh]);
   int finer = mesh + 1;
   while (finer + 1 < kMeshes && kRefinements[finer] < least &&
-         is_affordable(cost_of_finer(mesh, finer + 1, seconds)))
+         is_affordable(cost_of_finer(mesh, finer + 1, cost)))
     ++finer;
   return finer;
 }
 
 // Says what the next finer mesh would take if time or memory do not suffice for it; empty if they do.
-std::string obstacle_to_finer(int mesh, double seconds) {
+std::string obstacle_to_finer(int mesh, const Cost& of_mesh) {
   if (mesh + 1 == kMeshes) return "there is no finer mesh on offer";
-  const Cost cost = cost_of_finer(mesh, mesh + 1, seconds);
+  const Cost cost = cost_of_finer(mesh, mesh + 1, of_mesh);
   if (is_affordable(cost)) return "";
   std::ostringstream finer;
   finer << "the next mesh would take about " << duration(cost.seconds) << " and "
@@ -138,9 +193,9 @@ std::string obstacle_to_finer(int mesh, double seconds) {
 }
 
 // Returns whether the run ends with this mesh, and says how accurate it is.
-bool ends_here(int mesh, double error, double accuracy, double seconds) {
+bool ends_here(int mesh, double error, double accuracy, const Cost& cost) {
   const bool reached = error < 0 || error <= accuracy;
-  const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, seconds);
+  const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, cost);
   std::ostringstream said;
   said << percent(error) << " of the largest tension at a root by estimate, " << percent(accuracy)
        << " asked; counts " << kRefinements[mesh] << " times those of size tiny";
@@ -164,16 +219,15 @@ RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
 }
 
 // The next mesh after one whose evaluation is there: a finer one of which something is there, too, if there
-// is any. Size tiny alone has no estimate of its error. seconds: that this mesh took; infinite where not all
-// of it was made now, so that no mesh is passed over.
-int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy, double seconds) {
+// is any. Size tiny alone has no estimate of its error.
+int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy) {
   for (int finer = mesh + 1; finer < kMeshes; ++finer)
     for (const RunOnMesh& there :
          {on_mesh_apart(of, drive, finer), on_mesh(of, drive, kRefinements[finer], "")})
       if (has_bodies(there, drive) || has_evaluation(there)) return finer;
   if (mesh == 0) return 1;
   const double error = error_in(evaluation_file(on_mesh_apart(of, drive, mesh)));
-  return finer_mesh(mesh, error, accuracy, seconds);
+  return finer_mesh(mesh, error, accuracy, known_cost(of, mesh));
 }
 
 // Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
@@ -187,23 +241,20 @@ void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
       coarser.push_back(evaluation_file(apart));
       print_item("evaluate", coarser.back() + " is there");
       if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-      mesh = mesh_after(mesh, of, drive, accuracy, INFINITY);
+      mesh = mesh_after(mesh, of, drive, accuracy);
       continue;
     }
     const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
     const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, kRefinements[mesh], "");
     const bool is_new = !has_bodies(here, drive);
-    const auto start = std::chrono::steady_clock::now();
-    make(here, drive, coarser);
-    const double seconds = number_on_rank_0(
-        [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
+    const Cost cost = cost_of(of, mesh, timed([&] { make(here, drive, coarser); }), is_new);
     if (!is_apart) {
-      if (ends_here(mesh, error_in(evaluation_file(here)), accuracy, seconds)) return;
+      if (ends_here(mesh, error_in(evaluation_file(here)), accuracy, cost)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
     if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-    mesh = mesh_after(mesh, of, drive, accuracy, is_new ? seconds : INFINITY);
+    mesh = mesh_after(mesh, of, drive, accuracy);
   }
 }
 
