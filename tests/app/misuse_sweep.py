@@ -76,6 +76,8 @@ BEARINGS = [
     Case("bearings without anything", r"bearings of pinion: radial stiffness is missing of left, right; .*catalogue.*along its axis.*from tilting.*bearings of wheel: radial stiffness is missing of far",
          SWEEP_ONCE + " -pinion_bearings left,right -wheel_bearings far"),
     Case("bearing of a radial stiffness below 0", r"bearing left: stiffness -100000000 N/m radial.*must be positive", SWEEP_ONCE + " -pinion_bearings left -left_radial -1e8"),
+    Case("variants of named bearings", r"", ON_BEARINGS + " -pinion_bearings left,right -variants soft,hard -variant_soft_left_radial 5e7 -variant_hard_right_at 25\\ mm", kind="good", leaves=CASES),
+    Case("variants of a bearing that no gear has", r"'far_radial' is no key that a variant may have", ON_BEARINGS + " -pinion_bearings left,right -variants soft -variant_soft_far_radial 5e7"),
     Case("bearings that let the gear move along its axis", r"none of them holds the gear along its axis; give one an axial stiffness",
          SWEEP_ONCE + " -pinion_bearings left -left_at 0 -left_radial 1e8"),
     Case("bearing that lets the gear tilt", r"they do not keep the gear from tilting; give them different places", SWEEP_ONCE + " -pinion_bearings left -left_at 0 -left_radial 1e8 -left_axial 1e8"),
