@@ -60,6 +60,11 @@ std::map<std::string, std::string> options_in_database() {
   return options;
 }
 
+// PETSc takes values of these for kinds of viewers or files, also the true and false of a file of keys.
+bool names_viewer(const std::string& name) {
+  return name.find("monitor") != name.npos || name.ends_with("_view") || name.ends_with("_reason");
+}
+
 // Options by the names of earlier versions.
 const std::map<std::string, std::string> kRenamed = {
     {"contact_crease", "contact_feature_angle"},
@@ -167,11 +172,17 @@ void Options::note_options_files(int argc, char** argv) {
       files_.push_back(path_of_options_file(argv[i + 1]));
 }
 
-// Not all of them: its database holds 512.
+// Not all of them: its database holds 512. A viewer that is on is given by its name alone.
 void Options::give_to_petsc() const {
   for (const auto& [name, value] : given_) {
     if (!is_petsc_name(name)) continue;
-    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.empty() ? nullptr : value.c_str()));
+    const bool viewer = names_viewer(name);
+    if (viewer && value == "false") {
+      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));  // at its start PETSc has read it
+      continue;
+    }
+    const bool bare = value.empty() || (viewer && value == "true");
+    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), bare ? nullptr : value.c_str()));
     // Our own keys count as used; PETSc's are checked after the run.
     if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
   }
