@@ -38,6 +38,10 @@ using Provenance = std::map<std::string, std::string>;
 /// "ts_dt 2e-07 (was 1e-07)", one for each key with an effect that differs; empty: two runs have equal input.
 std::string differences(const ResumableSettings& settings, const Provenance& now, const Provenance& then);
 
+/// Error, with the ways out, where a run beside the result did not end, unless it shall be discarded. For
+/// what has that result, too, and cannot go on from a run.
+void require_no_run(const ResumableSettings& settings);
+
 /// Computes a run and writes its result. Error when an unfinished run with other input is there, or when the
 /// run does not reach its end; what it has is in the file then. WriteFailure when the file cannot be written;
 /// the last checkpoint stays.

@@ -209,9 +209,14 @@ void request_stop(Run& run) {
 }
 
 void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
-  Archive archive(state);
-  serialize_state(run, ts, archive);
-  archive.finish();
+  try {
+    Archive archive(state);
+    serialize_state(run, ts, archive);
+    archive.finish();
+  } catch (const Error& error) {
+    throw UnfitState(std::string("the checkpoint is of other bodies or another version of the program: ") +
+                     error.what());
+  }
 }
 
 }  // namespace
