@@ -60,6 +60,13 @@ std::map<std::string, std::string> options_in_database() {
   return options;
 }
 
+// How much of a name a key says beside its placeholder: "variant_<variant>" says more of
+// "variant_soft_left_radial" than "<bearing>_radial".
+std::size_t letters_of(const OptionSpec& spec) {
+  const auto open = spec.name.find('<');
+  return open == spec.name.npos ? spec.name.size() : spec.name.size() - (spec.name.find('>') - open + 1);
+}
+
 // PETSc takes values of these for kinds of viewers or files, also the true and false of a file of keys.
 bool names_viewer(const std::string& name) {
   return name.find("monitor") != name.npos || name.ends_with("_view") || name.ends_with("_reason");
@@ -177,7 +184,10 @@ void Options::give_to_petsc() const {
   for (const auto& [name, value] : given_) {
     if (!is_petsc_name(name)) continue;
     const bool viewer = names_viewer(name);
-    if (viewer && value == "false") continue;
+    if (viewer && value == "false") {
+      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));  // at its start PETSc has read it
+      continue;
+    }
     const bool bare = value.empty() || (viewer && value == "true");
     check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), bare ? nullptr : value.c_str()));
     // Our own keys count as used; PETSc's are checked after the run.
@@ -191,9 +201,10 @@ std::string Options::in_own_unit(const std::string& name, const std::string& val
 }
 
 std::string Options::unit_of(const std::string& name) const {
-  const OptionSpec* known = find_spec(own_, name);
-  if (!known) known = find_spec(known_, name);
-  return known ? known->unit : "";
+  const OptionSpec *own = find_spec(own_, name), *known = find_spec(known_, name);
+  const bool of_other = !own || (known && letters_of(*known) > letters_of(*own));
+  const OptionSpec* spec = of_other ? known : own;
+  return spec ? spec->unit : "";
 }
 
 void Options::convert_units() {

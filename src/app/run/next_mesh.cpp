@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -66,13 +67,6 @@ double number_on_rank_0(const std::function<double()>& number) {
   return value;
 }
 
-Cost timed(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  return {number_on_rank_0([&] { return taken.count(); }), number_on_rank_0(memory_held)};
-}
-
 Cost known_cost(const std::string& file) {
   const auto number = [&](std::size_t i) -> double {
     try {
@@ -85,8 +79,12 @@ Cost known_cost(const std::string& file) {
   return {number_on_rank_0([&] { return number(0); }), number_on_rank_0([&] { return number(1); })};
 }
 
-Cost cost_of(const std::string& file, const Cost& now, bool of_bodies) {
-  const Cost known = of_bodies ? Cost{0, 0} : known_cost(file);
+Cost cost_of(const std::string& file, bool of_bodies, const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const Cost now{number_on_rank_0([&] { return taken.count(); }), number_on_rank_0(memory_held)},
+      known = of_bodies ? Cost{0, 0} : known_cost(file);
   if (!std::isfinite(known.seconds)) return now;
   const Cost most{std::max(now.seconds, known.seconds), std::max(now.memory, known.memory)};
   number_on_rank_0([&] {

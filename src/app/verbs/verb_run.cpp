@@ -90,17 +90,18 @@ double error_in(const std::string& evaluation) {
   return number_on_rank_0([&] { return root_error(evaluation); });
 }
 
-std::string cost_file(const RunOnMesh& of, const Drive& drive, int mesh) {
-  std::ostringstream name;
-  name << folder_of_meshes(of.reduce) << "/cost_" << refinement(drive, mesh) << ".h5";
-  return name.str();
-}
-
 // The files of a mesh in its own folder, where those of all meshes but the last one are kept.
 RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
   std::ostringstream folder;
   folder << folder_of_meshes(of.reduce) << "/" << refinement(drive, mesh);
   return on_mesh(of, drive, refinement(drive, mesh), folder.str());
+}
+
+// Tells what a mesh took, beside the files of meshes.
+std::string cost_file(const RunOnMesh& of, const Drive& drive, int mesh) {
+  std::ostringstream name;
+  name << folder_of_meshes(of.reduce) << "/cost_" << refinement(drive, mesh) << ".h5";
+  return name.str();
 }
 
 // The next mesh after one whose evaluation is there: a finer one of which something is there, too, if there
@@ -133,7 +134,7 @@ void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
     const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
     const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, refinement(drive, mesh), "");
     const bool is_new = !has_bodies(here, drive);
-    const Cost cost = cost_of(cost_file(of, drive, mesh), timed([&] { make(here, drive, coarser); }), is_new);
+    const Cost cost = cost_of(cost_file(of, drive, mesh), is_new, [&] { make(here, drive, coarser); });
     if (!is_apart) {
       if (ends_here(drive, mesh, error_in(evaluation_file(here)), accuracy, cost)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
