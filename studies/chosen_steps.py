@@ -1,22 +1,27 @@
 #!/usr/bin/python3
 """What steps that a run chooses make of energy and of stress, as the tables of docs/validation/dynamics.md:
 
-    studies/chosen_steps.py --elastogear build/release/src/app/elastogear --out chosen_steps systems oscillators bar after rolling
+    studies/chosen_steps.py --elastogear build/release/src/app/elastogear --out chosen_steps systems oscillators bar after flight rolling
 
 systems: a mass on a stiff spring, a rigid rotor on stiff bearings, a double pendulum with a stiff hinge; energy made, and the drift of
 the pendulum beside smaller steps. oscillators: 72 runs of 1000 periods. bar: stress at and beside the held end under a pulse, beside
-fixed steps. after: the same pulse after a load that was a hundred times as large. rolling: ten turns of a pair without friction.
+fixed steps. after: the same pulse after a load that was a hundred times as large. flight: a free bar that hits a held one, the example
+of docs/systems.md. rolling: ten turns of a pair without friction.
 """
 import argparse
 import os
 import re
 import subprocess
+import sys
 
 import h5py
 import numpy as np
 import yaml
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+sys.path.append(os.path.join(ROOT, "scripts"))
+import figures
+
 INERTIA = [1e-3, 1e-3, 1e-3, 0, 0, 0]
 
 
@@ -189,6 +194,23 @@ def after(program):
     beside("default, after a large load", steps, found, exact, time >= 0.1)
 
 
+def flight(program):
+    bar = {"mesh": os.path.abspath(os.path.join(ROOT, "meshes", "bar.inp")), "material": {"E": 210e9, "nu": 0.3, "rho": 7850}, "surface": "TOP",
+           "modes": 10}
+    for name, restrain in (("held", "FIX"), ("block", "none")):
+        program.run("reduce", name, {**bar, "restrain": restrain, "output": name + ".h5"})
+    for name, gap, words in (("chosen steps", 1e-4, ()), ("fixed steps", 1e-4, ("-ts_dt", 2e-6)), ("penalty", 1e-4, ("-contact_law", "penalty")),
+                             ("rigid", 1e-4, ("-block_rigid", "true")), ("flight of 0.15 mm", 1.5e-4, ()), ("flight of 0.6 mm", 6e-4, ())):
+        block = {"file": "block.h5", "joint": "free", "position": [0.5, 0.025, 0.075 + gap], "rotation": [np.pi, 0, 0], "velocity0": [0, 0, -1]}
+        keys = {"bodies": ["held", "block"], "held": {"file": "held.h5"}, "block": block, "gravity": [0, 0, -9.81],
+                "contact": {"pairs": ["block:held"]}}
+        text = program.simulate("flight", keys, "-ts_max_time", 2e-4 + gap, *words)
+        start, off = number(text, "energy at the start"), number(text, "largest error of the balance")
+        print(f"{name}: {steps_of(text)} steps, largest force {number(text, 'peak force'):.5g} N, energy {start:.5g} J, off by at most {off:.3g} J")
+        if name == "chosen steps":
+            figures.figure("impact after a flight", "balance of energy", off / start, unit="%")
+
+
 def rolling(program):
     keys = {"drive": "cylindrical", "analysis": "dynamic", "module": "3 mm", "face_width": "20 mm", "size": "tiny", "element_order": 1, "modes": 6,
             "pinion": {"teeth": 17}, "wheel": {"teeth": 23}, "torque": "80 N m", "speed": "3000 rpm"}
@@ -204,7 +226,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--out", required=True)
-    parts = {part.__name__: part for part in (systems, oscillators, bar, after, rolling)}
+    parts = {part.__name__: part for part in (systems, oscillators, bar, after, flight, rolling)}
     parser.add_argument("parts", nargs="+", choices=parts)
     options = parser.parse_args()
     for part in options.parts:

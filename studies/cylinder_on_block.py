@@ -18,6 +18,7 @@ import sys
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
 import results
 
 R, R_PIN, SIZE, THICKNESS = 50e-3, 10e-3, 200e-3, 1e-3  # m
@@ -221,6 +222,7 @@ def main():
         os.makedirs(folder, exist_ok=True)
         for name, pin, pressure in rows(options, program, folder, load, 2 * load.half_width / faces):
             print(f"{faces:5g}  {name:20s}  {pressure / 1e6:14.1f}  {100 * (pressure / load.p_0 - 1):+7.2f} %  {1e3 * pin:10.5f}", flush=True)
+            figures.figure(f"cylinder on a block, {name}", f"peak pressure, {faces:g} faces", pressure / load.p_0 - 1, unit="%")
 
 
 if __name__ == "__main__":

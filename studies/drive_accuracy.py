@@ -10,9 +10,13 @@ import argparse
 import json
 import os
 import subprocess
+import sys
 import time
 
 import h5py
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
 
 COMMON = "drive: cylindrical\n"
 DRIVES = {
@@ -164,6 +168,8 @@ def main():
             if is_finer:
                 within, all_of = within + (off <= estimate), all_of + 1
             name = f"{DRIVES[key][0]}; counts times {refinement:g}" if i == 0 else ""
+            if is_finer:
+                figures.figure(DRIVES[key][0], label, off / 100, unit="%")
             right = f"{factor * finest.value:.4g} {unit} | {off:.2f} %" if is_finer else "– | –"
             print(f"| {name} | {label} | {factor * default.value:.4g} {unit} | {right} | {estimate:.2f} % |".replace("  ", " "), flush=True)
     print(f"\n{within} of {all_of} true errors are within the estimate.")

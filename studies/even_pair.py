@@ -10,10 +10,14 @@ as tables; what is there already is read again.
 import argparse
 import os
 import subprocess
+import sys
 
 import h5py
 import numpy as np
 import yaml
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
 
 STEEL = {"E": 210e9, "nu": 0.3, "rho": 7850}
 MODULE, ALPHA = 3e-3, np.radians(20)
@@ -177,6 +181,8 @@ def meshes(options):
         first = first or found
         off = np.abs(found["load"] / first["load"] - 1)[1:-1].max() if len(found["load"]) == len(first["load"]) else np.nan
         row(name, found, first)
+        for quantity, key in (("transmission error", "mean"), ("stiffness", "stiffness")):
+            figures.figure(f"stations, {name}", quantity, found[key] / first[key] - 1, unit="%")
         print(f"    strips but the outermost beside those of the first: {100 * off:.1f} %")
 
 

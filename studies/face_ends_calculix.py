@@ -13,6 +13,7 @@ import os
 import numpy as np
 
 from drive_runs import results
+import figures
 from spur_pair_calculix import DRIVE, E, NAMES, PROFILE, Elastogear, Mesh, pairs_of, run, write_deck
 
 WIDTH, LAYERS = 14e-3, 16  # m, of the wheel
@@ -87,6 +88,7 @@ def main():
         print(f"pinion wider by {100 * wider / LAYERS:g} %, sums {ours.sum():.0f} and {theirs.sum():.0f} N; strip: these, CalculiX, over their means")
         for k, (one, other) in enumerate(zip(ours / ours.mean(), theirs / theirs.mean())):
             print(f"| {k + 1} | {one:.3f} | {other:.3f} | {100 * (one / other - 1):+.1f} % |", flush=True)
+            figures.figure(f"load over the face, pinion wider by {100 * wider / LAYERS:g} %", "load of a strip", one / other - 1, unit="%")
 
 
 if __name__ == "__main__":

@@ -25,6 +25,9 @@ from scipy.integrate import solve_ivp
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
+
 TEETH, WIDTH, DISTANCE, TORQUE = (16, 24), 14e-3, 91.5e-3, 200.0  # m, N m on the pinion
 SETTLING, WINDOW = 30, 5  # pitches
 FLYWHEEL, STIFF = 4.5e-3, 1e8  # kg m^2, N m/rad: of the rigid couplings of flywheel and motor
@@ -172,6 +175,7 @@ def report(name, natural, sides):
     (a, b), (c, d) = (([f(*sides[who][:2])[0] for who in ("elastic", "oscillator")]) for f in (peak, jump))
     print(f"{name}: speed of the peak {100 * (a / b - 1):+.2f} %, of the jump {100 * (c / d - 1):+.2f} %, "
           f"peak {100 * (peak(*sides['elastic'][:2])[1] / peak(*sides['oscillator'][:2])[1] - 1):+.1f} %", flush=True)
+    figures.figure("resonance of C14", f"speed of the jump {name}", c / d - 1, unit="%")
 
 
 def draw(path, natural, found):

@@ -17,6 +17,7 @@ import time
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
 import results
 
 MODULE, WIDTH, ALPHA = 4e-3, 10e-3, np.radians(20)
@@ -180,6 +181,7 @@ def main():
             print(f"{elements:6s} {np.degrees(angle):8.3f} deg  {force:9.2f} N  {1e6 * r_b * error:9.3f} um  {seconds:5.1f} s", flush=True)
         print(f"{elements:6s} mean {rows[:, 0].mean():9.2f} N, {100 * (rows[:, 0].mean() * r_b / TORQUE - 1):+.3f} %; transmission error "
               f"{1e6 * r_b * rows[:, 1].mean():.3f} um, {1e6 * r_b * np.ptp(rows[:, 1]):.3f} um peak to peak; at most {rows[:, 2].max():.1f} s", flush=True)
+        figures.figure("two spur gears of another mesher", "sum of normal forces", rows[:, 0].mean() * r_b / TORQUE - 1, unit="%")
 
 
 if __name__ == "__main__":

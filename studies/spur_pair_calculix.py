@@ -18,6 +18,7 @@ import numpy as np
 
 from calculix import listed
 from drive_runs import Refused, results
+import figures
 
 NAMES = ("pinion", "wheel")
 E, NU = 206e9, 0.3
@@ -224,6 +225,8 @@ def look(options, folder, meshes, roll, penalty):
         print(f"roll {roll:g}, penalty {penalty:g}, {torque:g} N m: turned {1e3 * state.turned:.5f} mrad, CalculiX {moment:.3f} N m "
               f"({100 * (moment / torque - 1):+.2f} %), sum of forces {total:.1f} N, CalculiX {sum(pairs.values()):.1f} N; shares, CalculiX less "
               "these: " + ", ".join(f"{name} {100 * ours[name]:.2f} % ({100 * (theirs[name] - ours[name]):+.2f} %)" for name in ours), flush=True)
+        figures.figure(f"spur pair, {torque:g} N m", "load share", max(abs(theirs[name] - ours[name]) for name in ours), unit="%")
+        figures.figure(f"spur pair, {torque:g} N m", "secant stiffness", moment / torque - 1, unit="%")
     ratio = (moments[1] - moments[0]) / (options.torques[1] - options.torques[0])
     print(f"roll {roll:g}, penalty {penalty:g}: stiffness between both torques, CalculiX {100 * (ratio - 1):+.2f} %", flush=True)
 

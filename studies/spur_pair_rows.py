@@ -12,6 +12,7 @@ import os
 import numpy as np
 
 from drive_runs import results
+import figures
 from spur_pair_calculix import DRIVE, E, NAMES, NU, Mesh, run
 
 TORQUE = 400  # N m
@@ -50,11 +51,16 @@ def main():
     parser.add_argument("--rolls", type=float, nargs="+", default=[0.1, 0.3, 0.7])
     options = parser.parse_args()
     print("| rows | " + " | ".join(f"roll {roll:g}: mesh, H. Hertz, N/um" for roll in options.rolls) + " |")
+    coarse = {}
     for rows in options.rows:
         folder = os.path.join(options.out, str(rows))
         reduce(options, folder, rows)
         found = [[stiffness(options, folder, roll, points) / 1e6 for points in ("minima", "stations")] for roll in options.rolls]
         print(f"| {rows} | " + " | ".join(f"{mesh:.1f}, {hertz:.1f}" for mesh, hertz in found) + " |", flush=True)
+        coarse[rows] = np.array(found)[:, 0]
+    for rows in options.rows[:-1]:
+        figures.figure("contact compliance as coarse meshes have it", f"stiffness of C14, {rows} rows",
+                       (coarse[rows] / coarse[options.rows[-1]] - 1).max(), unit="%")
 
 
 if __name__ == "__main__":

@@ -16,6 +16,9 @@ import sys
 import h5py
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
+
 
 def run(program, folder, *words):
     done = subprocess.run([os.path.abspath(program), *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
@@ -70,6 +73,7 @@ def compare(name, paths):
                 at_position = np.abs(r.max(axis=1) / f.max(axis=1) - 1).max()
                 print(f"  root of {gear}, {kind}: up to {1e-6 * f.max():.2f} MPa; largest at a position off by at most "
                       f"{100 * at_position:.4f} %, of any tooth by {100 * np.abs(r - f).max() / f.max():.4f} % of the largest")
+                figures.figure(f"sweep, {name}", f"largest {kind.replace('_', ' ')}", at_position, unit="%")
 
 
 def main():

@@ -23,6 +23,9 @@ import sys
 import h5py
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import figures
+
 MODULE, ALPHA, STARTS, TEETH, DISTANCE = 2e-3, np.radians(15), 2, 41, 50e-3
 RIGID = ("-worm_rigid", "true", "-wheel_rigid", "true", "-contact_law", "unilateral")
 BACKLASH = 0.03 * MODULE  # normal, half of it off the teeth of each gear
@@ -197,6 +200,7 @@ def main():
                   f"{100 * (at_pitch_point / exact - 1):+.3f} %; over a pitch {found:.5f}, rigid with the shares found "
                   f"{shared:.5f}, {100 * (found / shared - 1):+.3f} %, with equal ones {rigid:.5f}, {100 * (found / rigid - 1):+.3f} %; "
                   f"contact ratio {ratio:.2f}, rigid {contact_ratio:.2f}", flush=True)
+            figures.figure("efficiency of a worm drive", "efficiency over a pitch", found / shared - 1, unit="%")
 
 
 if __name__ == "__main__":

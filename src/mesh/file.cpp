@@ -4,10 +4,14 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "mesh/inp/inp_format.h"
 #include "mesh/inp/lines/inp.h"
 #include "mesh/msh/msh.h"
+#include "mesh/msh/msh_format.h"
 
 namespace elastogear::mesh {
 namespace {
@@ -59,6 +63,14 @@ Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, co
 void write_mesh(const std::string& path, const Mesh& mesh) {
   if (extension(path) == ".msh") return write_msh(path, mesh);
   write_inp(path, mesh);
+}
+
+bool is_written_mesh(const std::string& path) {
+  constexpr std::streamsize kHead = 200;  // bytes, that hold what both formats begin with
+  std::string head(kHead, '\0');
+  open_input(path).read(head.data(), kHead);
+  return head.starts_with(inp_format::kFirstLine) ||
+         (head.starts_with("$MeshFormat") && head.find(msh_format::kSignature) != head.npos);
 }
 
 }  // namespace elastogear::mesh

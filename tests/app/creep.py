@@ -19,6 +19,7 @@ import numpy as np
 ELASTOGEAR = os.path.abspath(sys.argv[1])
 sys.path.append(os.path.abspath(sys.argv[2]))
 import results
+from figures import figure
 
 TAU = (1e-5, 1e-2, 10, 1e4)  # s
 ALIKE = {"prony": "0.15,0.15,0.15,0.15"}
@@ -185,11 +186,17 @@ def errors_at_rest(case, load):
     return errors_of(found, sigma, ("s", "force"))
 
 
+CASES = {"alike": "punch on polymer", "both": "punch on polymer and steel, one ratio", "two": "punch on two polymers",
+         "shear": "punch on polymer and steel, shear alone relaxes", "apart": "punch on polymer and steel, shear and bulk apart"}
+NAMES = {"s": "displacement", "force": "force", "stress NEAR": "stress", "stress INSIDE": "stress"}
+
+
 def compare_rest(case, bound):
     """Over ten decades: displacement, force and stresses."""
     for load in LOADS:
         for what, error in errors_at_rest(case, load).items():
-            check(f"{case.kind}, {case.modes} modes, {case.element}, {load}: {what}", error, bound)
+            print(f"{case.kind}, {case.modes} modes, {case.element}, {load}: {what}")
+            figure(CASES[case.kind], NAMES[what], error, bound)
 
 
 def errors_on_ramp(case, load, rise):

@@ -16,6 +16,7 @@ import numpy as np
 ELASTOGEAR = os.path.abspath(sys.argv[1])
 sys.path.append(os.path.abspath(sys.argv[2]))
 import results
+from figures import figure
 
 E, NU, PRESSED, STIFFNESS = 2e11, 0.3, 1e-4, 1.6e13  # Pa, -, m, Pa/m
 UNILATERAL = 1e-4  # of the compliance of the penalty, that contact without one keeps
@@ -84,16 +85,15 @@ def largest_error(folder, upper, lower, basis):
 
 
 def main():
-    worst = {"full": 1e-10, "modal_residual": 2e-6}  # static responses are in single precision: found, 1e-6
-    failed = False
+    bounds = {"full": 1e-10, "modal_residual": 2e-6}  # static responses are in single precision
+    quantities = {"full": "pressure", "modal_residual": "pressure with residual flexibility"}
     with tempfile.TemporaryDirectory() as folder:
         for upper, lower in ((("C3D20", 3), ("C3D20", 2)), (("C3D10", 2), ("C3D10", 3)), (("C3D20", 2), ("C3D8", 3)),
                              (("C3D4", 3), ("C3D20", 2)), (("C3D10", 3), ("C3D20", 2)), (("C3D8", 3), ("C3D10", 2))):
-            for basis, bound in worst.items():
+            for basis, bound in bounds.items():
                 error = largest_error(folder, upper, lower, basis)
                 print(f"{upper[0]:5s} {upper[1]} on {lower[0]:5s} {lower[1]}, {basis}: largest error of the pressure {error:.1e}")
-                failed |= not error < bound
-    sys.exit("the patch test is not passed" if failed else 0)
+                figure("patch test of second order", quantities[basis], error, bound)
 
 
 main()

@@ -72,6 +72,9 @@ grep -q "no space left.*goes on from there" run.log || fail "the message on a fu
 killed_at 1 rename case_0002 "${cases[@]}" -output cut.h5
 "${cases[@]}" -output cut.h5 >run.log 2>&1 || fail "the last run"
 grep -Eq "continued after +8 of 8 parts" run.log || fail "joining anew"
+killed_at 1 renamed unit_ "${cases[@]}" -output other.h5 -sweep_positions 21
+"${cases[@]}" -output other.h5 -resume replace >run.log 2>&1 || fail "a sweep does not take the place of another one that was killed"
+grep -q "begun anew  *other.partial held a run of other input: sweep_positions 20 (was 21)" run.log || fail "a sweep does not say that it begins anew"
 ls -d ./*.partial 2>/dev/null && fail "the folder of parts stays"
 
 # Where Newton's method is given too few iterations some positions are not found.
@@ -155,7 +158,7 @@ assert all(row["positions"] == "20" for row in rows)
 for row in rows:
     one = datasets("one/" + row["file"])
     assert len(one["time"]) == 20 and len(one) > 40
-    for other in ("two", "cut"):
+    for other in ("two", "cut", "other"):
         found = datasets(f"{other}/{row['file']}")
         assert one.keys() == found.keys()
         different = [name for name in one if one[name].dtype != object

@@ -15,7 +15,11 @@ import tempfile
 import h5py
 import numpy as np
 
-MAKE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes", "make.py")
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.append(os.path.join(ROOT, "scripts"))
+from figures import figure
+
+MAKE = os.path.join(ROOT, "meshes", "make.py")
 PULSE, END, OUTPUT = 2e-4, 1e-2, 2e-5  # s
 SMALL = 2.5e-7  # s, steps of the reference
 ROUND = 1e-3  # of the largest stress: what an output may be off beyond its estimate, as in theory, Eq. (4.9)
@@ -68,7 +72,8 @@ def hold(what, run, exact):
           f"{100 * held:.1f} % of the outputs, {size:.2f} times the true error in the root of the sum of squares")
     assert off[peak] <= estimate[peak] + ROUND * largest
     assert held >= HELD
-    assert 1 <= size <= TOO_LARGE
+    figure("estimate in time, bar", "estimate over error, least", size, 1, above=True)
+    figure("estimate in time, bar", "largest", size, TOO_LARGE)
     assert np.linalg.norm(off) > 5 * ROUND * np.linalg.norm(stress), "there is no error to be estimated"
 
 

@@ -11,9 +11,10 @@
 
 namespace elastogear::dynamics {
 
-/// What becomes of an unfinished run beside the result. automatic: it goes on if its input is the same;
-/// anyway: it goes on with the present one; discard: the run begins anew.
-enum class Resume { automatic, anyway, discard };
+/// What becomes of an unfinished run beside the result. automatic: it goes on if its input is the same, else
+/// an Error tells in what it differs; anyway: it goes on with the present one; discard: the run begins anew;
+/// replace: it goes on if its input is the same, else the run begins anew.
+enum class Resume { automatic, anyway, discard, replace };
 
 struct ResumableSettings {
   std::string output;            ///< result file; parts of it are kept in the folder `output`.partial
@@ -24,6 +25,8 @@ struct ResumableSettings {
   /// Is told the time (s) from which an earlier run goes on, and in what its input differs, such as
   /// "ts_dt 2e-07 (was 1e-07)".
   std::function<void(double time, const std::string& differences)> on_resume = {};
+  /// Is told, in the same words, why an earlier run is replaced.
+  std::function<void(const std::string& differences)> on_replace = {};
   /// Asked while it runs: why the run shall stop, such as "signal 15"; empty: it shall not.
   std::function<std::string()> stop_cause = {};
 };

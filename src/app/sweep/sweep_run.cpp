@@ -140,6 +140,10 @@ void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
       settings.resume == dynamics::Resume::discard ? std::nullopt : job.store.earlier_input();
   if (!earlier || !job.store.has_units()) return job.store.begin(input);
   const std::string other = differences(settings, input, *earlier);
+  if (!other.empty() && settings.resume == dynamics::Resume::replace) {
+    settings.on_replace(other);
+    return job.store.begin(input);
+  }
   require(other.empty() || settings.resume == dynamics::Resume::anyway, job.store.folder(),
           " holds a sweep that did not end, with other input: ", other,
           ". -resume anyway continues it with the present one, -resume discard begins anew");

@@ -3,8 +3,6 @@
 // asked.
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <utility>
@@ -19,10 +17,8 @@
 #include "app/run/report_page.h"
 #include "app/run/run_on_mesh.h"
 #include "app/setup/drive_on_meshes.h"
-#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
-#include "elastogear/base/petsc.h"
 
 namespace elastogear::app {
 namespace {
@@ -76,9 +72,9 @@ bool chooses_mesh(const Options& given, const RunOnMesh& of, const Drive& drive)
 double refinement(const Drive& drive, int mesh) { return drive.refinements[static_cast<std::size_t>(mesh)]; }
 
 // Returns whether the run ends with this mesh, and says how accurate it is.
-bool ends_here(const Drive& drive, int mesh, double error, double accuracy, double seconds) {
+bool ends_here(const Drive& drive, int mesh, double error, double accuracy, const Cost& cost) {
   const bool reached = error < 0 || error <= accuracy;
-  const std::string obstacle = reached ? "" : obstacle_to_finer(drive.refinements, mesh, seconds);
+  const std::string obstacle = reached ? "" : obstacle_to_finer(drive.refinements, mesh, cost);
   std::ostringstream said;
   said << percent(error) << " of the largest tension at a root by estimate, " << percent(accuracy)
        << " asked; counts " << refinement(drive, mesh) << " times those of size tiny";
@@ -101,17 +97,23 @@ RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
   return on_mesh(of, drive, refinement(drive, mesh), folder.str());
 }
 
+// Tells what a mesh took, beside the files of meshes.
+std::string cost_file(const RunOnMesh& of, const Drive& drive, int mesh) {
+  std::ostringstream name;
+  name << folder_of_meshes(of.reduce) << "/cost_" << refinement(drive, mesh) << ".h5";
+  return name.str();
+}
+
 // The next mesh after one whose evaluation is there: a finer one of which something is there, too, if there
-// is any. Size tiny alone has no estimate of its error. seconds: that this mesh took; infinite where not all
-// of it was made now, so that no mesh is passed over.
-int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy, double seconds) {
+// is any. Size tiny alone has no estimate of its error.
+int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy) {
   for (int finer = mesh + 1; finer < std::ssize(drive.refinements); ++finer)
     for (const RunOnMesh& there :
          {on_mesh_apart(of, drive, finer), on_mesh(of, drive, refinement(drive, finer), "")})
       if (has_bodies(there, drive) || has_evaluation(there)) return finer;
   if (mesh == 0) return 1;
   const double error = error_in(evaluation_file(on_mesh_apart(of, drive, mesh)));
-  return finer_mesh(drive.refinements, mesh, error, accuracy, seconds);
+  return finer_mesh(drive.refinements, mesh, error, accuracy, known_cost(cost_file(of, drive, mesh)));
 }
 
 // Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
@@ -126,23 +128,20 @@ void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
       coarser.push_back(evaluation_file(apart));
       print_item("evaluate", coarser.back() + " is there");
       if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-      mesh = mesh_after(mesh, of, drive, accuracy, INFINITY);
+      mesh = mesh_after(mesh, of, drive, accuracy);
       continue;
     }
     const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
     const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, refinement(drive, mesh), "");
     const bool is_new = !has_bodies(here, drive);
-    const auto start = std::chrono::steady_clock::now();
-    make(here, drive, coarser);
-    const double seconds = number_on_rank_0(
-        [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
+    const Cost cost = cost_of(cost_file(of, drive, mesh), is_new, [&] { make(here, drive, coarser); });
     if (!is_apart) {
-      if (ends_here(drive, mesh, error_in(evaluation_file(here)), accuracy, seconds)) return;
+      if (ends_here(drive, mesh, error_in(evaluation_file(here)), accuracy, cost)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
     if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-    mesh = mesh_after(mesh, of, drive, accuracy, is_new ? seconds : INFINITY);
+    mesh = mesh_after(mesh, of, drive, accuracy);
   }
 }
 

@@ -26,6 +26,10 @@ std::optional<io::UnfinishedRun> earlier_run(const ResumableSettings& settings,
   std::optional<io::UnfinishedRun> earlier = left_behind(settings.output);
   if (!earlier) return {};
   const std::string other = differences(settings, header.provenance, earlier->provenance);
+  if (!other.empty() && settings.resume == Resume::replace) {
+    if (settings.on_replace) settings.on_replace(other);
+    return {};
+  }
   require(other.empty() || settings.resume == Resume::anyway, settings.output,
           ".partial holds a run that did not end, until t = ", earlier->time, " s, with other input: ", other,
           ". -resume anyway continues it with the present one, -resume discard begins anew");
