@@ -298,7 +298,7 @@ refused "tooth 44 is not there" mesh spur.yaml -wheel_pitch_deviation "44, 10 um
 refused "must be pairs of a tooth" mesh spur.yaml -wheel_pitch_deviation "3"
 refused "must be at most 2 deg" mesh spur.yaml -wheel_skew 3
 refused "needs wheel_bearing_radial, too" simulate spur.yaml -wheel_bearing_axial "50 N/um"
-refused "bearing old: stiffness 0 N/m radial" simulate spur.yaml -wheel_bearings old
+refused "radial stiffness is missing of old" simulate spur.yaml -wheel_bearings old
 refused "hold.* the gear along its axis" simulate spur.yaml -wheel_bearings new -new_radial "100 N/um"
 refused "do not keep the gear from tilting" simulate spur.yaml -wheel_bearings a,b -a_radial 1e8 -b_radial 1e8 -a_axial 1e8
 refused "needs bearing_catalogue, too" simulate spur.yaml -wheel_bearings old -old_catalogue 6205
