@@ -100,16 +100,16 @@ def plot_load_sharing(pair, folder):
 def plot_line_load(pair, folder):
     if not pair.has("line_load/mean"):
         return
-    z, mean, all_ = (pair["line_load/" + name] for name in ("z", "mean", "value"))
+    z, width, mean, all_ = (pair["line_load/" + name] for name in ("z", "width", "mean", "value"))
+    face_load_factor = f", $K_{{H\\beta}}$ = {pair['line_load/KHbeta']:.3f}" if pair.has("line_load/KHbeta") else ""  # on parallel axes
     factor, unit = 1e-3, "N/mm"
     figure, axes = plt.subplots(figsize=(7, 4))
     axes.fill_between(1e3 * z, factor * all_.min(axis=0), factor * all_.max(axis=0), color=COLOURS[0], alpha=0.2, linewidth=0,
                       label="range over the roll angle")
     axes.plot(1e3 * z, factor * mean, "o-", color=COLOURS[0], markersize=3, label="mean over the roll angle")
-    level = factor * mean.max() / pair["line_load/KHbeta"]
-    axes.axhline(level, color="black", linewidth=0.8, linestyle=":", label="mean over the width")
+    axes.axhline(factor * np.average(mean, weights=width), color="black", linewidth=0.8, linestyle=":", label="mean over the width")
     axes.set(xlabel="along the axis in mm", ylabel=f"line load of all teeth in {unit}", ylim=(min(0, factor * all_.min()), None),
-             title=pair.title("Load over the face width") + f", $K_{{H\\beta}}$ = {pair['line_load/KHbeta']:.3f}")
+             title=pair.title("Load over the face width") + face_load_factor)
     axes.legend(frameon=False)
     save(figure, folder, pair.file("line_load"))
 

@@ -54,6 +54,7 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   require(verb.parallel || size == 1, "runs on one rank, not on ", size, ": call it without mpirun");
+  if (size > 1) use_one_blas_thread();  // ranks share the cores of their machine
   OptionSources sources{.argc = argc, .argv = argv};
   if (verb.configured) sources.files = line.arguments;
   const Options options = load_options(verb, verbs, sources);

@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/base/text.h"
 #include "elastogear/drive/surface_compliance.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/model/fingerprint.h"
@@ -39,21 +40,39 @@ Part part_of(const Drive& drive, const Operation& operation, std::size_t i) {
   return part;
 }
 
-// Refuses bearings that together leave a gear free along its axis or free to tilt.
-void require_held(const Member& member, const std::vector<Bearing>& bearings) {
+// What the bearings of a gear lack to hold it; empty: nothing.
+std::string lack_of(const Member& member, const std::vector<Bearing>& bearings) {
   double axial = 0, tilt = 0;
+  std::vector<std::string> soft, lacks;
   for (const Bearing& b : bearings) {
-    require(b.radial > 0 && b.axial >= 0 && b.tilt >= 0, "bearing ", b.name, ": stiffness ", b.radial,
+    require(b.radial >= 0 && b.axial >= 0 && b.tilt >= 0, "bearing ", b.name, ": stiffness ", b.radial,
             " N/m radial, ", b.axial, " N/m axial, ", b.tilt,
             " N m/rad against tilting: the first must be positive, the others at least 0");
+    if (b.radial == 0) soft.push_back(b.name);
     axial += b.axial;
     tilt += b.tilt + std::abs(b.at - bearings[0].at);
   }
-  require(axial > 0, "bearings of ", member.name,
-          ": none of them holds the gear along its axis; give one an axial stiffness");
-  require(tilt > 0, "bearings of ", member.name,
-          ": they do not keep the gear from tilting; give them different places (at), or one a stiffness "
-          "against tilting (tilt)");
+  if (!soft.empty())
+    lacks.push_back("radial stiffness is missing of " + join(soft, ", ") +
+                    "; give it (radial), or a designation (catalogue)");
+  if (axial == 0)
+    lacks.emplace_back("none of them holds the gear along its axis; give one an axial stiffness (axial)");
+  if (tilt == 0)
+    lacks.emplace_back(
+        "they do not keep the gear from tilting; give them different places (at), or one a "
+        "stiffness against tilting (tilt)");
+  return lacks.empty() ? "" : "bearings of " + member.name + ": " + join(lacks, ". Besides, ");
+}
+
+// Refuses bearings that leave a gear free to move or to tilt, with all that is missing, of all gears.
+void require_held(const Drive& drive, const Operation& operation) {
+  std::string lacks;
+  for (std::size_t i = 0; i < drive.members.size(); ++i) {
+    const std::vector<Bearing> bearings = bearings_of(operation, i);
+    const std::string lack = bearings.empty() ? "" : lack_of(drive.members[i], bearings);
+    if (!lack.empty()) lacks += (lacks.empty() ? "" : ". Also the ") + lack;
+  }
+  require(lacks.empty(), lacks);
 }
 
 Eigen::Matrix3d turned(const Member& member) {
@@ -87,7 +106,6 @@ dynamics::BushingSetup bushing(const Member& member, const Bearing& b, double tu
 // torque: N m, which a held gear takes.
 void set_bearings(const Part& part, double torque, BodySetup& body, dynamics::MarkerSetups& markers) {
   constexpr double kTurn = 1e-8;  // rad
-  require_held(part.member, part.bearings);
   body.joint.type = body::JointType::free;
   body.joint.R_WB0 = turned(part.member);
   body.omega0 = {0, 0, part.omega_0};
@@ -124,6 +142,7 @@ std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member)
 }
 
 DriveSystem drive_system(const Drive& drive, const Operation& operation) {
+  require_held(drive, operation);
   DriveSystem system;
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
     const Part part = part_of(drive, operation, i);

@@ -18,7 +18,7 @@ bool is_coarse(const MeshDensity& by) { return by.size == gear::Size::tiny && by
 
 gear::WormCounts worm_counts(const MeshDensity& by, int z1) {
   gear::WormCounts n = gear::worm_counts(by.size, z1, by.order);
-  if (is_coarse(by)) n.flank = 3;
+  if (is_coarse(by)) n.flank = 3, n.fillet = 2;
   return gear::refined(n, z1, by.refinement);
 }
 
@@ -59,7 +59,7 @@ Drive worm_drive(const gear::Design& design, const gear::Geometry& geometry, con
   wheel.angle = hand * (turned / g.ratio - sense * closing);
   wheel.ratio = hand / g.ratio;
   wheel.width = design.face_width;
-  return {{worm, wheel}, {{0, 1}}};
+  return {{worm, wheel}, {{0, 1}}, {1, 2, 3, 4, 6}};  // half a space of the worm has one column
 }
 
 }  // namespace elastogear::drive

@@ -34,6 +34,7 @@ Roots sort_by_tooth(const io::StressSet& set, const gear::Toothing& toothing, in
 StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, const Beside& beside,
                      const ByTooth& teeth, const std::vector<int>& tooth, Eigen::MatrixXd& history,
                      Eigen::Index& row) {
+  constexpr double kEqualHalves = 1e-6;  // of both halves of an even face, of which the first node is named
   history = Eigen::MatrixXd::Zero(stress.cols(), static_cast<Eigen::Index>(tooth.size()));
   StressPeak peak;
   peak.value = -INFINITY;
@@ -45,7 +46,7 @@ StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, co
       for (Eigen::Index i : nodes->second) {
         if (beside.size() > 0 && beside(i, step)) continue;
         largest = std::max(largest, stress(i, step));
-        if (stress(i, step) <= peak.value) continue;
+        if (stress(i, step) - peak.value <= kEqualHalves * std::abs(stress(i, step))) continue;
         row = i;
         peak = {.value = stress(i, step),
                 .tooth = tooth[k],

@@ -142,6 +142,8 @@ double plane_modulus(const PairOfRun& pair) {
   return known ? 1 / (pair.compliance[0] + pair.compliance[1]) : 0;
 }
 
+bool is_parallel(const PairOfRun& pair) { return transmission(pair.gear[0], pair.gear[1], 1).parallel; }
+
 }  // namespace
 
 void add_teeth(const PairOfRun& pair, Items& items) {
@@ -170,14 +172,15 @@ void add_line_load(const PairOfRun& pair, Items& items) {
   items.curve("line_load/width", "m", "of the face that each of them stands for", load.stations.widths());
   items.table("line_load/value", "N/m", "normal force of all pairs of teeth per width", load.value);
   items.curve("line_load/mean", "N/m", "the same in the mean over the run", mean_line_load(load));
-  items.number("line_load/KHbeta", "1", "largest over mean line load, in the mean over the run", factor);
+  if (is_parallel(pair))  // on crossed axes flanks touch at points, or on lines across the face
+    items.number("line_load/KHbeta", "1", "largest over mean line load, in the mean over the run", factor);
 }
 
 void take_hertz(PairOfRun& pair) {
   const double E_star = plane_modulus(pair);
   if (!(E_star > 0)) return;
   take_hertz(both(pair), stations_of(pair, 1), E_star, pair.contacts);
-  pair.by_hertz = transmission(pair.gear[0], pair.gear[1], 1).parallel;
+  pair.by_hertz = is_parallel(pair);
 }
 
 void add_hertz(const PairOfRun& pair, Items& items) {

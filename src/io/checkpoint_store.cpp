@@ -24,6 +24,16 @@ std::string fingerprint_of(const std::string& path) {
   }
 }
 
+// Returns whether a file is a whole one of another kind: runs and sweeps that did not end have such folders,
+// too.
+bool is_foreign(const std::string& path) {
+  try {
+    return h5::string_attribute(h5::open(path), "/", "format") != kCheckpointFormat.name;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 // Returns whether a file is one that a killed run left under a temporary name (base/file.h).
 bool is_temporary(const fs::path& path) {
   return path.filename().string().find(".h5.tmp") != std::string::npos;
@@ -38,7 +48,7 @@ CheckpointStore::CheckpointStore(std::string folder, std::string fingerprint)
   for (const auto& entry : fs::directory_iterator(folder_, error)) {
     const fs::path& path = entry.path();
     if (is_temporary(path)) doomed.push_back(path);
-    if (path.extension() != kExtension) continue;
+    if (path.extension() != kExtension || is_foreign(path.string())) continue;
     if (fingerprint_of(path.string()) == fingerprint_) {
       names_.push_back(path.stem().string());
     } else {

@@ -4,19 +4,37 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "mesh/inp/inp_format.h"
 #include "mesh/inp/lines/inp.h"
 #include "mesh/msh/msh.h"
+#include "mesh/msh/msh_format.h"
 
 namespace elastogear::mesh {
 namespace {
+
+// What makes a mesh that is read out of bulk data of Nastran; empty for files of other extensions. Gmsh takes
+// bulk data by its extension, which .dat is not.
+std::string way_from_bulk_data(const std::string& path, const std::string& extension) {
+  if (extension != ".bdf" && extension != ".nas" && extension != ".dat") return "";
+  const auto with = [&](const char* other) {
+    return std::filesystem::path(path).replace_extension(other).string();
+  };
+  const std::string rename = extension == ".dat" ? "cp " + path + " " + with(".bdf") + " && " : "",
+                    deck = extension == ".dat" ? with(".bdf") : path;
+  return "; bulk data of Nastran becomes one, with its properties and shells as sets, without materials, "
+         "restraints and local coordinate systems, by \"" +
+         rename + "gmsh " + deck + " -save -o " + with(".inp") + "\"";
+}
 
 std::string extension(const std::string& path) {
   std::string text = std::filesystem::path(path).extension().string();
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   require(text == ".msh" || text == ".inp", path, ": unknown mesh format '", text,
-          "', allowed are .msh (Gmsh 4.1) and .inp (Abaqus/CalculiX)");
+          "', allowed are .msh (Gmsh 4.1) and .inp (Abaqus/CalculiX)", way_from_bulk_data(path, text));
   return text;
 }
 
@@ -45,6 +63,14 @@ Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, co
 void write_mesh(const std::string& path, const Mesh& mesh) {
   if (extension(path) == ".msh") return write_msh(path, mesh);
   write_inp(path, mesh);
+}
+
+bool is_written_mesh(const std::string& path) {
+  constexpr std::streamsize kHead = 200;  // bytes, that hold what both formats begin with
+  std::string head(kHead, '\0');
+  open_input(path).read(head.data(), kHead);
+  return head.starts_with(inp_format::kFirstLine) ||
+         (head.starts_with("$MeshFormat") && head.find(msh_format::kSignature) != head.npos);
 }
 
 }  // namespace elastogear::mesh

@@ -225,6 +225,28 @@ def check_cases(drive):
         assert (tangent[1] > 0.9 * secant).all(), "teeth are not softer under more load"
 
 
+def check_bearings(drive):
+    """Bearings of half the stiffness: what the drive is softer by along the line of action is their own deflection, as the screen says.
+    Which case is which, it says, too."""
+    with open("held.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE.replace("shift: 0.3", "shift: 0.3, bearings: [left, right]") + """left: {at: -20 mm, radial: 500 N/um, axial: 500 N/um}
+right: {at: 20 mm, radial: 500 N/um}
+variants: [stiff, soft]
+variant_soft: {left: {radial: 250 N/um}, right: {radial: 250 N/um}}
+""")
+    drive.run("simulate", "held.yaml", "-analysis", "sweep", "-sweep_positions", "4")
+    text = drive.run("evaluate", "held.yaml", "-output", "held_cases.h5")
+    lines = [line.split() for line in text.splitlines()]
+    assert ["case", "torque", "N", "m", "variant", "pair", "root", "of", "root", "MPa"] in [line[:10] for line in lines], text
+    for case in (["1", "300", "stiff", "pinion:wheel"], ["2", "300", "soft", "pinion:wheel"]):
+        assert any(line[:4] == case and line[4] in ("pinion", "wheel") for line in lines), text
+    with open("held_cases_cases.csv", encoding="utf-8") as table:
+        stiff, soft = [float(row["pinion:wheel stiffness/secant_mean [N/m]"]) for row in csv.DictReader(table)]
+    near("compliance that softer bearings add", 1 / soft - 1 / stiff, 1 / 0.5e9 - 1 / 1e9, 0.02e-9)
+    text = drive.run("evaluate", "held.yaml", "-result", "held_result/case_0001.h5")
+    assert re.search(r"mesh stiffness .*\(secant, with the deflection of the bearings\)", text), text
+
+
 def check_in_time(drive):
     """Rigid gears on springs at 200 rad/s, over 2.2 pitches, beside a body that is no gear."""
     with open("drive.yaml", "a", encoding="utf-8") as file:
@@ -318,6 +340,7 @@ if __name__ == "__main__":
         check_rigid(d)
         check_face_load(d)
         check_cases(d)
+        check_bearings(d)
         check_in_time(d)
         check_prescribed(d)
         check_soft_wheel(d)

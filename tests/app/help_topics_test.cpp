@@ -28,6 +28,15 @@ TEST(HelpTopics, of_first_need_are_sixty_options_at_most) {
   for (const Verb& verb : all_verbs()) EXPECT_LE(rows(help_by_topic(verb.table, "")), 60) << verb.name;
 }
 
+TEST(HelpTopics, of_first_need_in_a_system_are_its_markers_and_loads) {
+  for (const Verb& verb : all_verbs()) {
+    if (verb.name != "simulate") continue;
+    const std::string help = help_by_topic(verb.table, "");
+    for (const char* option : {"<body>_points", "loads", "<load>_marker", "<load>_force", "<load>_torque"})
+      EXPECT_NE(help.find("\n  -" + std::string(option)), std::string::npos) << option;
+  }
+}
+
 TEST(HelpTopics, are_chosen_by_a_word_of_names_meanings_and_headings) {
   const OptionTable table = {{"contact_friction", "-", "0", "coefficient of friction"},
                              {"contact_skin", "m", "0", "width of a band"},

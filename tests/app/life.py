@@ -85,6 +85,12 @@ def expected(heights, blocks, ratio):
     return damage
 
 
+def verdict_on(body, text):
+    """The words on a gear above the figures of all of them: it lasts where the damage is below 1."""
+    line = next(line for line in text.splitlines() if line.split()[:2] == [body, "root"])
+    return " ".join(line.split()[2:]).split(": damage")[0]
+
+
 def main():
     program, scripts = map(os.path.abspath, sys.argv[1:])
     with tempfile.TemporaryDirectory() as folder:
@@ -147,6 +153,7 @@ def look(program, scripts):
     write_stresses("erring.h5", {body: h[0] for body, h in heights.items()}, error=0.2)
     text = run("-files", "erring.h5", "-duty_cycle", "100 N m, 1e5")
     assert "life at the stress and its estimated error" in text and "not estimated" not in text
+    assert [verdict_on(body, text) for body in TEETH] == ["reached", "open within the error of the stress, a finer mesh decides"], text
     with open("drive_life.json", encoding="utf-8") as file:
         summary = json.load(file)
     for one, (body, z) in zip(summary["sets"], TEETH.items()):
@@ -158,6 +165,9 @@ def look(program, scripts):
         assert abs(lives[0] / lives[1] - 1) < 1e-9
         with h5py.File("drive_life.h5") as file:
             assert abs(file[f"{body}/root/damage_with_error"][:].max() / one["damage_with_error"] - 1) < 1e-12
+    assert {verdict_on(body, run("-files", "erring.h5", "-duty_cycle", "100 N m, 1e6")) for body in TEETH} == {"not reached"}
+    assert verdict_on("pinion", run("-files", "100.h5", "-file_torques", "100 N m", "-duty_cycle", "100 N m, 1e5")) == (
+        "reached by the stress, whose error is not estimated")
 
     # Survival, a CSV file, a gear's own curve.
     with open("cycle.csv", "w", encoding="utf-8") as file:

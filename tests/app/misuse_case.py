@@ -86,11 +86,18 @@ def garbled(bench):
     write(bench.path("kept_run.h5.partial"), {"state.h5": "nothing"})
 
 
+def killed(command, fault):
+    """Another command that was killed at a call of its own."""
+    def begin(bench):
+        status, output = bench.run(command, fault)
+        if status != -signal.SIGKILL:
+            raise Failed("the run was not killed: " + output[-300:])
+    return begin
+
+
 def unfinished(bench):
     """A killed run after its second checkpoint."""
-    status, output = bench.run("{single} -checkpoint_every 0", KILL_AT_SECOND_STATE)
-    if status != -signal.SIGKILL:
-        raise Failed("the run was not killed: " + output[-300:])
+    killed("{single} -checkpoint_every 0", KILL_AT_SECOND_STATE)(bench)
 
 
 def unfinished_flipped(bench):

@@ -1,7 +1,7 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
 import os
 
-from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
+from misuse_case import Case, continued, first, flipped, full, HALT, last_time, NO_SPACE, running, written
 from misuse_compare import COMPARE
 from misuse_design import DESIGN
 from misuse_evaluate import EVALUATE
@@ -45,6 +45,8 @@ OPTIONS = [
     Case("options file that is a folder", r"folder", "{single} -options_file folder"),
     Case("options file missing in the environment", r"PETSc cannot start.*PETSC_OPTIONS",
          "env PETSC_OPTIONS='-options_file nosuch.txt' {elastogear} reduce"),
+    Case("monitors of PETSc in a file of keys", r"", "{single} -options_file monitors.yaml", kind="good", leaves=r"kept_run\.h5",
+         before=written("monitors.yaml", "snes: {monitor: true}\nts: {monitor: false}\nsnes_converged_reason: false\n")),
     Case("PETSc option misspelt", r"ts_dtt.*-ts_dt ", "{single} -ts_dtt 1e-7"),
     Case("solver option misspelt", r"snes_rtoll.*-snes_rtol ", "{single} -snes_rtoll 1e-9"),
     Case("eigensolver option misspelt", r"eps_tool.*-eps_tol ", "{reduce} -eps_tool 1e-9"),
@@ -163,6 +165,10 @@ MESH = [
     Case("mesh format that is none", r"kept.stl", "{mesh} -mesh kept.stl"),
     Case("mesh in a folder that is not there", r"nosuch", "{mesh} -mesh nosuch/kept.msh"),
     Case("mesh to a folder", r"folder", "{mesh} -mesh folder"),
+    Case("mesh in place of another program's", r"option -mesh: would overwrite brick.msh, a file that elastogear has not written; move it, or give another name by -mesh", "{mesh} -mesh brick.msh"),
+    Case("mesh in place of another program's deck", r"option -wheel_mesh_output: would overwrite brick.inp", "{worm} -module 2e-3 -wheel_mesh_output brick.inp"),
+    Case("mesh in place of an earlier one", r"", "{mesh}", kind="good", leaves=r"kept\.msh", before=first("{mesh}")),
+    Case("deck in place of an earlier one", r"", "{mesh} -mesh kept.inp", kind="good", leaves=r"kept\.inp", before=first("{mesh} -mesh kept.inp")),
     Case("odd columns of a tooth", r"tooth.*even", "{mesh} -wheel_count_tooth 3"),
     Case("mesh on a full disk", NO_SPACE, "{mesh}", fault=full("kept.msh", 4096)),
     Case("mesh killed before it has its name", r"", "{mesh}", kind="killed", leaves=r"kept\.msh\.tmp.*",

@@ -197,7 +197,7 @@ def make(bench):
         truncate(bench.folder, source, "truncated_" + source)
     os.makedirs(bench.path("folder"))
     os.symlink("body.h5", bench.path("link.h5"))
-    write(bench.folder, {"kept.msh": "an earlier mesh\n", "kept_1.csv": "an earlier table\n"})
+    write(bench.folder, {"kept.msh": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\nelastogear mesh, in m\n$EndComments\n", "kept_1.csv": "an earlier table\n"})
 
 
 def place_of(path, value):

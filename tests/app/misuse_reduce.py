@@ -17,6 +17,8 @@ REDUCE = [
     Case("missing face set", r"NOSUCH.*TOP", "{reduce} -surface NOSUCH"),
     Case("NaN option", r"material_E.*nan", "{reduce} -material_E nan"),
     Case("NaN coordinate", r"nan.inp.*nan", "{reduce} -mesh nan.inp"),
+    Case("modulus in GPa without its unit", r"option -material_E = 210 Pa is no material of a gear; GPa meant. Then give 210 GPa", "{reduce} -material_E 210", kind="warning", leaves=r"kept\.h5"),
+    Case("modulus in MPa without its unit", r"MPa meant. Then give 3000 MPa", "{reduce} -material_E 3000", kind="warning", leaves=r"kept\.h5"),
     Case("impossible material", r"nu.*0\.7", "{reduce} -material_nu 0.7"),
     Case("inverted element", r"(cell|element).*Jacobian", "{reduce} -mesh inverted.inp"),
     Case("no restraint", r"restrain", "{elastogear} reduce -mesh brick.inp {steel} -surface TOP -modes 5 -output kept.h5"),

@@ -1,7 +1,8 @@
 """The misuses of the verb run, and of the program without a verb."""
-from misuse_case import Case, continued, copied, encoded, first, flipped, foldered, piped, reworded, running
+from misuse_case import again, Case, continued, copied, encoded, first, flipped, foldered, killed, piped, reworded, running
 
 HALT_IN_RESULT = {"": "stop", "CALL": "write", "FILE": "gears_result"}
+KILL_IN_SWEEP = {"": "kill", "CALL": "renamed", "FILE": "unit_"}
 
 RUN = [
     Case("run without a drive", r"needs a drive file: elastogear run drive.yaml", "{elastogear} run"),
@@ -28,6 +29,10 @@ RUN = [
     Case("run with an option of wear", r"-coefficient belongs to wear; run does not read it", "{run} -coefficient 1e-18"),
     Case("run with a misspelt option", r"nearest known option is -accuracy .*'elastogear run -help all'", "{run} -acuracy 5"),
     Case("run of several torques again", r"", "{run} -torques 50,100 -sweep_positions 1", kind="good", leaves=r"gears_(result/|evaluation).*", before=first("{run} -torques 50,100 -sweep_positions 1")),
+    Case("run after a killed one under another torque", r"", "{run} -torque 40 -sweep_positions 2", kind="good", leaves=r"gears_(result|evaluation).*",
+         before=killed("{run} -sweep_positions 2", KILL_IN_SWEEP), after=again("{run} -torque 40 -sweep_positions 2", "gears_result.h5")),
+    Case("run of other torques after a killed one", r"", "{run} -torques 40,50 -sweep_positions 2", kind="good", leaves=r"gears_(result/|result.partial|evaluation).*",
+         before=killed("{run} -torques 50,100 -sweep_positions 2", KILL_IN_SWEEP)),
     Case("run whose body is a folder", r"'folder' is no name for a file: a folder has it", "{run} -pinion_file folder"),
     Case("run whose body is a pipe", r"'pipe.h5' is no name for a file", "{run} -pinion_file pipe.h5", before=piped("pipe.h5")),
     Case("run whose body is a result", r"pinion_file: 'gears_result.h5' is the file of option -output, too", "{run} -pinion_file gears_result.h5"),

@@ -20,6 +20,9 @@ TEST(ProgressLine, NothingIsForetoldBeforeAnythingIsDone) {
   EXPECT_EQ(progress_line({"static", 0, 0, 4, ""}, kColumns), "static                 0 %  4 s so far");
   EXPECT_EQ(progress_line({"dynamics", 0.5, 0.5, 4, ""}, kColumns),
             "dynamics              50 %  continued, 4 s so far");
+  EXPECT_EQ(progress_line({"dynamics", 0.5, 0.5, 2.6e-7, ""}, kColumns),
+            "dynamics              50 %  continued");
+  EXPECT_EQ(progress_line({"dynamics", 0, 0, 2.6e-7, ""}, kColumns), "dynamics               0 %  begun");
 }
 
 TEST(ProgressLine, TheLastLineTellsTheTimeTaken) {

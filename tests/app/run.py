@@ -6,6 +6,7 @@
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -83,8 +84,16 @@ def accurate():
     parts = ("largest_tension_mesh_error", "largest_tension_error")
     life_with_error({of: sum(pair["root"][of][part]["value"] for part in parts) / pair["root"][of]["largest_tension"]["value"]
                      for of in ("pinion", "wheel")})
-    # A finer mesh where that is asked; the coarser ones are there.
-    finer = run("accurate.yaml", "-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))
+    # A finer mesh where that is asked; the coarser ones are there. Without the memory for it the forecast is that of the mesh's first
+    # run, and the next start gives the same answer and makes nothing.
+    asked = ("-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))
+    first = within(1, "accurate.yaml", *asked)
+    forecast = accuracy_in(first)
+    assert "not reached: the next mesh would take about" in forecast and made(first) == (False, False), first
+    assert accuracy_in(within(1, "accurate.yaml", *asked)) == forecast
+    needed = 1e9 * float(re.search(r"and ([\d.]+) GB", forecast)[1])
+    assert accuracy_in(within(0.98 * needed, "accurate.yaml", *asked)) == forecast
+    finer = run("accurate.yaml", *asked)
     assert "1.5/accurate_evaluation.h5" in run("accurate.yaml", "-accuracy", "60 %") and "2 times" in finer, finer
     # Another load is solved on all meshes whose bodies are there.
     said = run("accurate.yaml", "-torque", "45 N m")
@@ -93,6 +102,20 @@ def accurate():
     refused = subprocess.run([ELASTOGEAR, "simulate", "accurate.yaml", "-analysis", "dynamic", "-ts_max_time", "1e-6"],
                              capture_output=True, text=True, check=False)
     assert refused.returncode != 0 and "has no modes" in refused.stderr, refused.stderr
+
+
+def within(memory, *arguments):
+    """A run under `ulimit -m` of so many bytes."""
+    before = resource.getrlimit(resource.RLIMIT_RSS)
+    resource.setrlimit(resource.RLIMIT_RSS, (int(memory), before[1]))
+    try:
+        return run(*arguments)
+    finally:
+        resource.setrlimit(resource.RLIMIT_RSS, before)
+
+
+def accuracy_in(said):
+    return next(line for line in said.splitlines() if line.split()[:1] == ["accuracy"])
 
 
 def life_with_error(share):

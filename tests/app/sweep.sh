@@ -57,12 +57,24 @@ grep -q "stopped by signal 15.*goes on from there" run.log || fail "a stopped sw
 grep -Eq "continued after +2 of 8 parts" run.log || fail "a sweep does not say that it continues"
 "${cases[@]}" -output cut.h5 -sweep_positions 21 >run.log 2>&1 && fail "continued with other positions"
 grep -q "sweep_positions 21 (was 20)" run.log || fail "the message on other positions"
+
+# What another version of the program left is refused with the remedy.
+version() { /usr/bin/python3 -c "import sys, h5py; h5py.File(sys.argv[1], 'r+').attrs['version'] += int(sys.argv[2])" "$1" "$2"; }
+for left in cut.partial/sweep.h5 "$(ls cut.partial/unit_*.h5 | head -1)"; do
+  version "$left" -1
+  "${cases[@]}" -output cut.h5 -resume anyway >run.log 2>&1 && fail "goes on from $left of another version"
+  grep -q "$left: has version 1 .*-resume discard begins anew" run.log || { cat run.log; fail "the message on $left of another version"; }
+  version "$left" 1
+done
 (LD_PRELOAD=$faults${LD_PRELOAD:+:$LD_PRELOAD} FAULT=full FAULT_CALL=write FAULT_FILE=$work/ FAULT_SPACE=40000 \
   ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0 exec "${cases[@]}" -output cut.h5) >run.log 2>&1 && fail "a full disk is passed over"
 grep -q "no space left.*goes on from there" run.log || fail "the message on a full disk"
 killed_at 1 rename case_0002 "${cases[@]}" -output cut.h5
 "${cases[@]}" -output cut.h5 >run.log 2>&1 || fail "the last run"
 grep -Eq "continued after +8 of 8 parts" run.log || fail "joining anew"
+killed_at 1 renamed unit_ "${cases[@]}" -output other.h5 -sweep_positions 21
+"${cases[@]}" -output other.h5 -resume replace >run.log 2>&1 || fail "a sweep does not take the place of another one that was killed"
+grep -q "begun anew  *other.partial held a run of other input: sweep_positions 20 (was 21)" run.log || fail "a sweep does not say that it begins anew"
 ls -d ./*.partial 2>/dev/null && fail "the folder of parts stays"
 
 # Where Newton's method is given too few iterations some positions are not found.
@@ -146,7 +158,7 @@ assert all(row["positions"] == "20" for row in rows)
 for row in rows:
     one = datasets("one/" + row["file"])
     assert len(one["time"]) == 20 and len(one) > 40
-    for other in ("two", "cut"):
+    for other in ("two", "cut", "other"):
         found = datasets(f"{other}/{row['file']}")
         assert one.keys() == found.keys()
         different = [name for name in one if one[name].dtype != object

@@ -39,8 +39,7 @@ def shown(text, heading):
 
 
 def alike(line, printed):
-    """Do two lines have the same words and, to their digits, the same numbers? Of symmetric gears roundoff chooses the half of the face."""
-    line, printed = (re.sub(r"\bz -", "z ", text) for text in (line, printed))
+    """Do two lines have the same words and, to their digits, the same numbers?"""
     if NUMBER.sub("#", " ".join(line.split())) != NUMBER.sub("#", " ".join(printed.split())):
         return False
     pairs = zip(map(float, NUMBER.findall(line)), map(float, NUMBER.findall(printed)))

@@ -59,6 +59,16 @@ TEST(RootStress, tells_the_largest_tension_of_the_loaded_side_and_the_way_of_a_t
   EXPECT_NEAR(stress.tension(3, 0), tension(3.0 / 8), 1);
 }
 
+TEST(RootStress, is_at_the_first_of_nodes_that_bear_the_same_but_for_roundoff) {
+  const test::RollingPair pair = test::spur_pair();
+  io::StressSet set = made_up(pair);
+  const auto node = [&] { return root_stress(set, pair.gear[0], pair.gear[1], 1).largest_tension.node; };
+  set.rankine(2, 0) = 300e6 * (1 + 1e-8);
+  EXPECT_EQ(node(), 100);
+  set.rankine(2, 0) = 300e6 * (1 + 1e-5);
+  EXPECT_EQ(node(), 102);
+}
+
 TEST(RootStress, ranges_over_tension_and_compression) {
   const test::RollingPair pair = test::spur_pair();
   const RootStress stress = root_stress(made_up(pair, 0.9), pair.gear[0], pair.gear[1], 1);

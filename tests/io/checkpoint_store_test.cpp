@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/io/record_file.h"
 #include "sample_body.h"
 
 namespace elastogear::checkpoint_store_test {
@@ -74,6 +75,16 @@ TEST_F(Pieces, of_another_fingerprint_and_damaged_ones_are_removed) {
   EXPECT_TRUE(other.names().empty());
   EXPECT_EQ(other.discarded(), 1);
   EXPECT_TRUE(std::filesystem::is_empty(path));
+}
+
+TEST_F(Pieces, leave_what_a_run_of_the_same_name_left) {
+  std::filesystem::create_directories(path);
+  write_record(path + "/other.h5", {{}, {1}});
+  CheckpointStore store(path, "one");
+  EXPECT_EQ(store.discarded(), 0);
+  write(store, "a");
+  store.clear();
+  EXPECT_EQ(read_record(path + "/other.h5").numbers, std::vector<double>{1});
 }
 
 TEST_F(Pieces, leave_nothing_when_cleared_but_what_is_not_theirs) {

@@ -130,7 +130,18 @@ TEST(MeshFiles, name_what_is_wrong_with_the_path) {
   EXPECT_THAT(message(folder / "none.msh"), testing::HasSubstr("none.msh"));
   EXPECT_THAT(message(folder / "none.inp"), testing::HasSubstr("none.inp"));
   EXPECT_THAT(message(folder / "a.stl"), testing::HasSubstr("unknown mesh format '.stl'"));
+  EXPECT_THAT(message(folder / "a.stl"), testing::Not(testing::HasSubstr("gmsh")));
   EXPECT_THROW(write_mesh(folder / "a.stl", box_mesh({1, 1, 1})), Error);
+}
+
+TEST(MeshFiles, of_nastran_are_refused_with_the_command_that_converts_them) {
+  EXPECT_THAT(message("gears/deck.BDF"),
+              testing::AllOf(testing::HasSubstr("unknown mesh format '.bdf'"),
+                             testing::HasSubstr("without materials, restraints and local coordinate systems"),
+                             testing::EndsWith("\"gmsh gears/deck.BDF -save -o gears/deck.inp\"")));
+  EXPECT_THAT(message("deck.nas"), testing::EndsWith("\"gmsh deck.nas -save -o deck.inp\""));
+  EXPECT_THAT(message("deck.dat"),
+              testing::EndsWith("\"cp deck.dat deck.bdf && gmsh deck.bdf -save -o deck.inp\""));
 }
 
 }  // namespace

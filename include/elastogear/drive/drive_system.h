@@ -42,7 +42,7 @@ struct DriveSystem {
 /// The torque drives the first gear. At rest the last gear is held: by its joint, in a sweep led from
 /// position to position, and in bearings by a spring about its axis that the torque turns by 1e-8 rad. In
 /// motion it carries the torque of a drive without losses, and all gears begin with the speeds of their
-/// ratios. Throws Error for bearings that leave a gear free along its axis or free to tilt.
+/// ratios. Throws Error for bearings that leave a gear free to move or to tilt.
 DriveSystem drive_system(const Drive& drive, const Operation& operation);
 
 /// Adds a marker at each bearing that is not at the origin of the body frame. Throws Error where there is one

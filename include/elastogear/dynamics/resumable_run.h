@@ -11,9 +11,10 @@
 
 namespace elastogear::dynamics {
 
-/// What becomes of an unfinished run beside the result. automatic: it goes on if its input is the same;
-/// anyway: it goes on with the present one; discard: the run begins anew.
-enum class Resume { automatic, anyway, discard };
+/// What becomes of an unfinished run beside the result. automatic: it goes on if its input is the same, else
+/// an Error tells in what it differs; anyway: it goes on with the present one; discard: the run begins anew;
+/// replace: it goes on if its input is the same, else the run begins anew.
+enum class Resume { automatic, anyway, discard, replace };
 
 struct ResumableSettings {
   std::string output;            ///< result file; parts of it are kept in the folder `output`.partial
@@ -24,6 +25,8 @@ struct ResumableSettings {
   /// Is told the time (s) from which an earlier run goes on, and in what its input differs, such as
   /// "ts_dt 2e-07 (was 1e-07)".
   std::function<void(double time, const std::string& differences)> on_resume = {};
+  /// Is told, in the same words, why an earlier run is replaced.
+  std::function<void(const std::string& differences)> on_replace = {};
   /// Asked while it runs: why the run shall stop, such as "signal 15"; empty: it shall not.
   std::function<std::string()> stop_cause = {};
 };
@@ -34,6 +37,10 @@ using Computation = std::function<RunSummary(const Observer& observer, const Che
 using Provenance = std::map<std::string, std::string>;
 /// "ts_dt 2e-07 (was 1e-07)", one for each key with an effect that differs; empty: two runs have equal input.
 std::string differences(const ResumableSettings& settings, const Provenance& now, const Provenance& then);
+
+/// Error, with the ways out, where a run beside the result did not end, unless it shall be discarded. For
+/// what has that result, too, and cannot go on from a run.
+void require_no_run(const ResumableSettings& settings);
 
 /// Computes a run and writes its result. Error when an unfinished run with other input is there, or when the
 /// run does not reach its end; what it has is in the file then. WriteFailure when the file cannot be written;

@@ -17,4 +17,7 @@ Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report
 /// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
+/// Does a file begin as those of write_mesh() do? Error when it cannot be read.
+bool is_written_mesh(const std::string& path);
+
 }  // namespace elastogear::mesh

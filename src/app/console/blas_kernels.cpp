@@ -32,6 +32,17 @@ Instructions kernel_instructions() {
   return Instructions::portable;
 }
 
+// 1 with another BLAS.
+int blas_threads() {
+  const auto get = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  return get ? get() : 1;
+}
+
+void set_blas_threads(int n) {
+  const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (set && !std::getenv("OPENBLAS_NUM_THREADS")) set(n);
+}
+
 // Bytes that the process may have.
 rlim_t memory_limit() {
   rlim_t least = RLIM_INFINITY;
@@ -61,11 +72,10 @@ std::string blas_advice() {
          " in the environment is faster";
 }
 
-void use_one_blas_thread() {
-  using Set = void (*)(int);
-  const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (set && !std::getenv("OPENBLAS_NUM_THREADS")) set(1);
-}
+void use_one_blas_thread() { set_blas_threads(1); }
+
+OneBlasThread::OneBlasThread() : before_(blas_threads()) { set_blas_threads(1); }
+OneBlasThread::~OneBlasThread() { set_blas_threads(before_); }
 
 void take_blas_memory() {
   constexpr std::size_t kBuffer = std::size_t{1} << 27, kWork = std::size_t{1} << 25;  // bytes

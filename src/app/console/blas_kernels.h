@@ -22,9 +22,21 @@ std::string blas_setting();
 /// That setting as a sentence.
 std::string blas_advice();
 
-/// Keeps OpenBLAS from threads that a time step is too small for: they wait for work and yield their
-/// processor each time. Those that OPENBLAS_NUM_THREADS asks for remain.
+/// Gives OpenBLAS one thread, unless OPENBLAS_NUM_THREADS is set: for processes that share a machine.
 void use_one_blas_thread();
+
+/// While it lives, OpenBLAS has one thread: others are too many for time steps and static equilibria, wait
+/// for work and yield their processor each time. Those that OPENBLAS_NUM_THREADS asks for remain.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int before_;
+};
 
 /// Lets OpenBLAS take its buffer of memory while that is there: it asks for ever where the system refuses.
 /// Error when memory is limited (ulimit -v, -d) and there is no room for it.

@@ -24,14 +24,15 @@ constexpr double kPoorShape = 0.1;  // scaled Jacobian
 
 constexpr const char* kDirectional[] = {"E1", "E2", "E3"};
 
+// In GPa where that is a material of gears, from plastics to hard metal; else in MPa, then in GPa, where that
+// is any material.
 std::string modulus_meant(double E) {
-  const double if_mega = 1e6 * E, if_giga = 1e9 * E;
-  if (E > kStiffest) return "";
-  if (if_mega >= kSoftest * 100 && if_mega <= kStiffest)
-    return "; MPa meant? Then give " + with_unit(if_mega, "Pa");
-  if (if_giga >= kSoftest && if_giga <= kStiffest)
-    return "; GPa meant? Then give " + with_unit(if_giga, "Pa");
-  return "";
+  constexpr double kPlastic = 1e9, kHardMetal = 7e11;  // Pa
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  const std::string in_giga = "; GPa meant? Then give " + with_unit(E, "GPa");
+  if (within(1e9 * E, kPlastic, kHardMetal)) return in_giga;
+  if (within(1e6 * E, kSoftest * 100, kStiffest)) return "; MPa meant? Then give " + with_unit(E, "MPa");
+  return within(1e9 * E, kSoftest, kStiffest) ? in_giga : "";
 }
 
 std::string density_meant(double rho) {
@@ -128,7 +129,7 @@ void warn_of_strength(const std::string& option, double stress) {
   const double if_mega = 1e6 * stress;
   const bool fits = if_mega >= kWeakest && if_mega <= kStrongest;
   print_item("warning", option + " = " + with_unit(stress, "Pa") + " is no strength of a gear's material" +
-                            (fits ? "; MPa meant? Then give " + with_unit(if_mega, "Pa") : ""));
+                            (fits ? "; MPa meant? Then give " + with_unit(stress, "MPa") : ""));
 }
 
 void warn_of_shapes(const mesh::Mesh& mesh, const std::vector<std::int64_t>& cell_number) {

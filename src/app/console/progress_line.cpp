@@ -12,6 +12,8 @@ std::string time_text(const StageProgress& stage) {
   if (stage.fraction >= 1) return duration(stage.elapsed);
   const double done = stage.fraction - stage.first;
   if (done > 0) return "remaining " + duration(stage.elapsed * (1 - stage.fraction) / done);
+  constexpr double kNoticed = 0.01;  // s
+  if (stage.elapsed < kNoticed) return stage.first > 0 ? "continued" : "begun";
   return (stage.first > 0 ? "continued, " : "") + duration(stage.elapsed) + " so far";
 }
 

@@ -1,7 +1,10 @@
 // The tables that evaluate prints on the terminal.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "app/console/console.h"
 #include "app/evaluate/evaluate_tables.h"
@@ -63,7 +66,7 @@ void print_pitches(const Reader& of) {
                      of.in(name + "at_speed", 1, "rad/s"));
 }
 
-void print_stiffness(const Reader& of) {
+void print_stiffness(const Reader& of, bool in_bearings) {
   for (const char* kind : {"secant", "tangent"})
     if (const std::string name = std::string("stiffness/") + kind; of.has(name + "_mean"))
       print_item(std::string("mesh stiffness, ") + kind,
@@ -71,7 +74,8 @@ void print_stiffness(const Reader& of) {
                      of.in(name + "_per_width", 1e-9, "N/(mm um)") +
                      (of.has(name + "_peak_to_peak")
                           ? ", peak to peak " + of.in(name + "_peak_to_peak", 1e-6, "N/um")
-                          : ""));
+                          : "") +
+                     (in_bearings ? ", with the deflection of the bearings" : ""));
 }
 
 void print_load(const Reader& of) {
@@ -157,13 +161,18 @@ void print_losses(const Reader& of) {
                                      of.in("force/largest", 1, "N"));
 }
 
-// Largest tension at the roots of both gears with its estimated error, MPa; a dash where none is known.
-std::string largest_tension(const std::vector<EvaluationItem>& items) {
+constexpr const char* kNone = "-";  // in place of a figure that is not known
+
+// Largest tension at the roots of both gears with its estimated error, MPa, and the gear that has it.
+std::array<std::string, 2> largest_tension(const std::vector<EvaluationItem>& items) {
+  constexpr std::string_view kGroup = "root/";
   const EvaluationItem* largest = nullptr;
   for (const EvaluationItem& item : items)
-    if (item.path.starts_with("root/") && item.path.ends_with("/largest_tension"))
+    if (item.path.starts_with(kGroup) && item.path.ends_with("/largest_tension"))
       if (!largest || item.value[0] > largest->value[0]) largest = &item;
-  return largest ? with_error(largest->value[0], whole_error(items, largest->path)) : "-";
+  if (!largest) return {kNone, kNone};
+  const std::string gear = largest->path.substr(kGroup.size(), largest->path.rfind('/') - kGroup.size());
+  return {with_error(largest->value[0], whole_error(items, largest->path)), gear};
 }
 
 // Largest pressure, MPa: by H. Hertz, in brackets the mean over faces where that is not known.
@@ -171,7 +180,37 @@ std::string largest_pressure(const std::vector<EvaluationItem>& items) {
   if (const EvaluationItem* hertz = find_item(items, "pressure/hertz_peak"))
     return short_number(1e-6 * hertz->value[0]);
   const EvaluationItem* mean = find_item(items, "pressure/peak");
-  return mean ? "(" + short_number(1e-6 * mean->value[0]) + ")" : "-";
+  return mean ? "(" + short_number(1e-6 * mean->value[0]) + ")" : kNone;
+}
+
+// What a column of the table of cases says of this one; empty: nothing.
+std::string in_column(const Case& of, const std::string& heading) {
+  for (const auto& [name, text] : of.columns)
+    if (name == heading) return text;
+  return "";
+}
+
+std::string torque_of(const Case& of) {
+  const double torque = number_in_column(of, "torque");
+  return std::isfinite(torque) ? digits_of(torque, 6) : "";
+}
+
+using Texts = std::vector<std::string>;
+
+// Columns side by side, the first n_words of them words, without those in which no row has anything.
+void print_table(const Texts& title, const std::vector<Texts>& rows, std::size_t n_words) {
+  std::vector<int> width(title.size(), 0);
+  for (std::size_t i = 0; i < title.size(); ++i) {
+    for (const Texts& row : rows) width[i] = std::max(width[i], static_cast<int>(row[i].size()));
+    if (width[i] > 0) width[i] = std::max(width[i], static_cast<int>(title[i].size()));
+  }
+  const auto print = [&](const Texts& row) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (width[i] > 0) std::printf("%*s  ", i < n_words ? -width[i] : width[i], row[i].c_str());
+    std::printf("\n");
+  };
+  print(title);
+  for (const Texts& row : rows) print(row);
 }
 
 }  // namespace
@@ -182,7 +221,7 @@ void print_figures(const CaseFigures& of) {
     const Reader reader{pair.items};
     print_error(reader);
     print_pitches(reader);
-    print_stiffness(reader);
+    print_stiffness(reader, is_in_bearings(of, pair.pair));
     print_load(reader);
     print_pressure(reader, pair.pair);
     print_roots(reader);
@@ -203,19 +242,22 @@ void print_cases(const std::vector<CaseFigures>& cases) {
       {"secant N/um", "stiffness/secant_mean", 1e-6}, {"tangent N/um", "stiffness/tangent_mean", 1e-6},
       {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
       {"efficiency %", "losses/efficiency", 100}};
-  std::printf("%-24s %-20s %13s %13s", "case", "pair", "root MPa", "pressure MPa");
-  for (const Column& column : kColumns) std::printf(" %13s", column.title);
-  std::printf("\n");
+  constexpr std::size_t kWords = 5;
+  Texts title = {"case", "torque N m", "variant", "pair", "root of", "root MPa", "pressure MPa"};
+  for (const Column& column : kColumns) title.emplace_back(column.title);
+  std::vector<Texts> rows;
   for (const CaseFigures& of : cases)
     for (const PairFigures& pair : of.pairs) {
-      std::printf("%-24s %-20s %13s %13s", printable(of.of.name).c_str(), printable(pair.pair).c_str(),
-                  largest_tension(pair.items).c_str(), largest_pressure(pair.items).c_str());
+      const auto [tension, gear] = largest_tension(pair.items);
+      Texts& row = rows.emplace_back(Texts{printable(of.of.name), torque_of(of.of),
+                                           printable(in_column(of.of, "variant")), printable(pair.pair),
+                                           printable(gear), tension, largest_pressure(pair.items)});
       for (const Column& column : kColumns) {
         const EvaluationItem* item = find_item(pair.items, column.path);
-        item ? std::printf(" %13.4g", column.factor * item->value[0]) : std::printf(" %13s", "-");
+        row.push_back(item ? digits_of(column.factor * item->value[0], 4) : kNone);
       }
-      std::printf("\n");
     }
+  print_table(title, rows, kWords);
 }
 
 }  // namespace elastogear::app

@@ -246,14 +246,15 @@ void print_error(const PairsOfKind& of) {
                       : "; orders of the mesh " + orders + " um"));
 }
 
-void print_stiffness(const PairsOfKind& of) {
+void print_stiffness(const PairsOfKind& of, bool in_bearings) {
   for (const std::string kind : {"secant", "tangent"}) {
     std::string text = span(of, "stiffness/" + kind + "_mean", 1e-6);
     if (text.empty()) continue;
     Span per_width = span_of(of, "stiffness/" + kind + "_per_width", 1e-9);
     per_width.error = 0;
     text.append(" N/um, ").append(per_width.text());
-    text.append(" N/(mm um) over the face width (").append(kind).append(")");
+    text.append(" N/(mm um) over the face width (").append(kind);
+    text.append(in_bearings ? ", with the deflection of the bearings)" : ")");
     print_item("  mesh stiffness", text);
   }
 }
@@ -275,11 +276,11 @@ void print_losses(const PairsOfKind& of) {
     print_item("  dynamic factor", factor + ", contact force up to " + span(of, "force/largest", 1) + " N");
 }
 
-void print_kind(const PairsOfKind& of, const Surroundings& about) {
+void print_kind(const PairsOfKind& of, const Surroundings& about, bool in_bearings) {
   print_item(of.name, of.pairs.size() > 1 ? std::to_string(of.pairs.size()) + " meshes" : "");
   print_pressure(of, about);
   print_error(of);
-  print_stiffness(of);
+  print_stiffness(of, in_bearings);
   print_sharing(of);
   print_losses(of);
 }
@@ -337,6 +338,14 @@ std::string Surroundings::kind_of(const std::string& gear) const {
   return known == kind.end() ? gear : known->second;
 }
 
+bool is_in_bearings(const CaseFigures& of, const std::string& pair) {
+  const std::size_t colon = pair.find(':');
+  return std::any_of(of.bearings.begin(), of.bearings.end(), [&](const EvaluationItem& item) {
+    return item.path.ends_with("/gear") &&
+           (item.words[0] == pair.substr(0, colon) || item.words[0] == pair.substr(colon + 1));
+  });
+}
+
 void print_case_in_short(const CaseFigures& of, const Surroundings& about) {
   print_roots(of, about);
   constexpr std::size_t kMostKinds = 3;
@@ -344,7 +353,7 @@ void print_case_in_short(const CaseFigures& of, const Surroundings& about) {
   if (kinds.size() > kMostKinds)
     print_cases({of});
   else
-    for (const PairsOfKind& kind : kinds) print_kind(kind, about);
+    for (const PairsOfKind& kind : kinds) print_kind(kind, about, is_in_bearings(of, kind.pairs[0]->pair));
   print_bearings(of.bearings);
   for (const std::string& note : of.notes) print_item("note", note);
 }

@@ -66,6 +66,9 @@ struct Surroundings {
   std::string kind_of(const std::string& gear) const;
 };
 
+/// Has one of the gears of a pair ("pinion:wheel") bearings, whose deflection is in the motion of the gears?
+bool is_in_bearings(const CaseFigures& of, const std::string& pair);
+
 /// Prints what an engineer looks for, on one screen: numbers rounded, gears of one kind summed up.
 void print_case_in_short(const CaseFigures& of, const Surroundings& about);
 /// Prints all figures.

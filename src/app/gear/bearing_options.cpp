@@ -78,8 +78,6 @@ Bearing one_bearing(const Options& options, const std::string& name) {
   read_rows(options, kOneBearingRows, b, name);
   require(std::abs(b.at) <= kFarthest, options.label(name + "_at"), " = ", b.at, " m: must be within ",
           kFarthest, " m of the middle of the teeth; write its unit, as in '-20 mm'");
-  require(b.radial > 0, "bearing ", name, ": stiffness ", b.radial, " N/m radial: must be positive; give ",
-          name, "_radial or ", designation);
   return b;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -165,30 +166,53 @@ std::string place(const LifeOfSet& one) {
          (one.laid ? ", the same of every tooth" : ", tooth " + std::to_string(one.set.tooth[at]));
 }
 
+// Rounded, since a life is not known to more digits.
+std::string rounded(double value, const std::string& unit) {
+  if (is_verbose()) return with_unit(value, unit);
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g", value);
+  return std::string(number).append(" ").append(unit);
+}
+
+// Does the gear last for the duty cycle? It fails where the damage reaches 1.
+std::string verdict(const LifeOfSet& one) {
+  const double damage = largest_damage(one);
+  const std::optional<double> with_error = largest_with_error(one);
+  const std::string figures =
+      "damage " + rounded(damage, "by the stress") +
+      (with_error ? ", " + rounded(*with_error, "by the stress and its estimated error") : "") +
+      "; failure at 1";
+  if (damage >= 1) return "not reached: " + figures;
+  if (!with_error) return "reached by the stress, whose error is not estimated: " + figures;
+  return (*with_error < 1 ? "reached: " : "open within the error of the stress, a finer mesh decides: ") +
+         figures;
+}
+
+std::string name_of(const LifeOfSet& one) { return one.set.body + " " + one.set.set; }
+
 std::string life_text(double damage, const Total& sum) {
   if (damage == 0) return "without end";
-  std::string text = with_unit(sum.revolutions / damage, "revolutions of the first gear");
-  if (sum.hours >= 0) text += ", " + with_unit(sum.hours / damage, "h");
+  std::string text = rounded(sum.revolutions / damage, "revolutions of the first gear");
+  if (sum.hours >= 0) text += ", " + rounded(sum.hours / damage, "h");
   return text;
 }
 
 void print_set(const LifeOfSet& one, const Total& sum) {
   const double damage = largest_damage(one);
-  print_item(one.set.body + " " + one.set.set,
-             "largest damage " + with_unit(damage, "in a duty cycle") + ", " + place(one));
-  print_item("", "largest stress there " + with_unit(1e-6 * one.largest, "MPa") +
+  print_item(name_of(one), "largest damage " + rounded(damage, "in a duty cycle") + ", " + place(one));
+  print_item("", "largest stress there " + rounded(1e-6 * one.largest, "MPa") +
                      ", fully reversed amplitude " +
-                     with_unit(1e-6 * one.set.amplitude[one.set.critical], "MPa"));
+                     rounded(1e-6 * one.set.amplitude[one.set.critical], "MPa"));
   print_item("", "life at the stress " + life_text(damage, sum));
   if (const std::optional<double> with_error = largest_with_error(one))
     print_item("", "life at the stress and its estimated error " + life_text(*with_error, sum));
   else
-    print_item("warning", one.set.body + " " + one.set.set +
+    print_item("warning", name_of(one) +
                               ": the error of the stress is not estimated, and the life goes with a high "
                               "power of it: recover with error estimates, or repeat with a finer mesh");
   if (one.laid && one.pitches > 1)
     print_item("", "from the first of " + std::to_string(one.pitches) +
-                       " pitches; others differ by at most " + with_unit(1e-6 * one.difference, "MPa"));
+                       " pitches; others differ by at most " + rounded(1e-6 * one.difference, "MPa"));
 }
 
 }  // namespace
@@ -217,9 +241,11 @@ void write_side_files(const std::string& output, const LifeReport& report, bool 
 
 void print_life(const LifeReport& report) {
   const Total sum = total(report.blocks);
-  print_item("duty cycle", std::to_string(report.blocks.size()) + " blocks, " +
-                               with_unit(sum.revolutions, "revolutions of the first gear") +
-                               (sum.hours < 0 ? "" : ", " + with_unit(sum.hours, "h")));
+  const std::size_t n = report.blocks.size();
+  print_item("duty cycle", std::to_string(n) + (n == 1 ? " block, " : " blocks, ") +
+                               rounded(sum.revolutions, "revolutions of the first gear") +
+                               (sum.hours < 0 ? "" : ", " + rounded(sum.hours, "h")));
+  for (const LifeOfSet& one : report.sets) print_item("  " + name_of(one), verdict(one));
   print_item("stresses known at",
              join(report.swept, ", ", [](const SweptTorque& at) { return with_unit(at.torque, "N m"); }));
   for (const LifeOfSet& one : report.sets) print_set(one, sum);

@@ -60,6 +60,18 @@ std::map<std::string, std::string> options_in_database() {
   return options;
 }
 
+// How much of a name a key says beside its placeholder: "variant_<variant>" says more of
+// "variant_soft_left_radial" than "<bearing>_radial".
+std::size_t letters_of(const OptionSpec& spec) {
+  const auto open = spec.name.find('<');
+  return open == spec.name.npos ? spec.name.size() : spec.name.size() - (spec.name.find('>') - open + 1);
+}
+
+// PETSc takes values of these for kinds of viewers or files, also the true and false of a file of keys.
+bool names_viewer(const std::string& name) {
+  return name.find("monitor") != name.npos || name.ends_with("_view") || name.ends_with("_reason");
+}
+
 // Options by the names of earlier versions.
 const std::map<std::string, std::string> kRenamed = {
     {"contact_crease", "contact_feature_angle"},
@@ -167,11 +179,17 @@ void Options::note_options_files(int argc, char** argv) {
       files_.push_back(path_of_options_file(argv[i + 1]));
 }
 
-// Not all of them: its database holds 512.
+// Not all of them: its database holds 512. A viewer that is on is given by its name alone.
 void Options::give_to_petsc() const {
   for (const auto& [name, value] : given_) {
     if (!is_petsc_name(name)) continue;
-    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.empty() ? nullptr : value.c_str()));
+    const bool viewer = names_viewer(name);
+    if (viewer && value == "false") {
+      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));  // at its start PETSc has read it
+      continue;
+    }
+    const bool bare = value.empty() || (viewer && value == "true");
+    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), bare ? nullptr : value.c_str()));
     // Our own keys count as used; PETSc's are checked after the run.
     if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
   }
@@ -183,9 +201,10 @@ std::string Options::in_own_unit(const std::string& name, const std::string& val
 }
 
 std::string Options::unit_of(const std::string& name) const {
-  const OptionSpec* known = find_spec(own_, name);
-  if (!known) known = find_spec(known_, name);
-  return known ? known->unit : "";
+  const OptionSpec *own = find_spec(own_, name), *known = find_spec(known_, name);
+  const bool of_other = !own || (known && letters_of(*known) > letters_of(*own));
+  const OptionSpec* spec = of_other ? known : own;
+  return spec ? spec->unit : "";
 }
 
 void Options::convert_units() {

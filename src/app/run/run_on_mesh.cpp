@@ -101,6 +101,7 @@ RunOnMesh run_options(const Options& given) {
   RunOnMesh of{given.of_verb("reduce", reduce_verb().table), given.of_verb("simulate", simulate_verb().table),
                given.of_verb("evaluate", evaluate_verb().table)};
   of.simulate.set_default("analysis", "sweep");
+  of.simulate.set_default("resume", "replace");
   return of;
 }
 

@@ -76,9 +76,10 @@ using dynamics::ResumableSettings;
 const Rows<ResumableSettings> kRows = {
     {"checkpoint_every", &ResumableSettings::checkpoint_every, "s",
      "wall-clock time between checkpoints; 0: after each step"},
-    {"resume", &ResumableSettings::resume, one_of("auto", "anyway", "discard"),
-     "an unfinished run beside the output: auto (go on if its input is the same), anyway (go on with the "
-     "present options) or discard"},
+    {"resume", &ResumableSettings::resume, one_of("auto", "anyway", "discard", "replace"),
+     "an unfinished run beside the output: auto (go on if its input is the same, else refuse), anyway (go on "
+     "with the present options), discard, or replace (go on if its input is the same, else begin anew; "
+     "default of run)"},
 };
 
 }  // namespace
@@ -103,6 +104,9 @@ dynamics::ResumableSettings resumable_settings(const Options& options, const std
   settings.output = output;
   read_rows(options, kRows, settings);
   settings.has_effect = [&options](const std::string& key) { return has_effect(options, key); };
+  settings.on_replace = [output](const std::string& differences) {
+    print_item("begun anew", output + ".partial held a run of other input: " + differences);
+  };
   settings.stop_cause = stop_cause();
   return settings;
 }

@@ -49,21 +49,16 @@ struct Entry {
   std::string label, key, value;
 };
 
-// Options that change neither meshes nor bodies, with the names of the gears.
+// Options that change neither meshes nor bodies, with the names of the gears and of their bearings.
 OptionTable variant_keys(const Options& options) {
+  PlaceholderValues names = {{"gear", options.list("gears")}, {"bearing", {}}};
+  for (const std::string& gear : names["gear"])
+    for (const std::string& bearing : options.list(gear + "_bearings")) names["bearing"].push_back(bearing);
   OptionTable all;
   for (const OptionTable& table :
        {modification_table(), misalignment_table(), bearing_table(), contact_table()})
-    for (const OptionSpec& spec : table) {
-      if (spec.name == "contact_pairs" || spec.name == "contact_surface") continue;
-      if (spec.name.find('<') == std::string::npos)
-        all.push_back(spec);
-      else
-        for (const std::string& gear : options.list("gears")) {
-          all.push_back(spec);
-          all.back().name = with_word(spec.name, gear);
-        }
-    }
+    for (const OptionSpec& spec : expand(table, names))
+      if (spec.name != "contact_pairs" && spec.name != "contact_surface") all.push_back(spec);
   return all;
 }
 

@@ -135,17 +135,24 @@ std::string locked_file(const SweepJob& job) {
 // Units of an earlier sweep of equal input stay. One that has found nothing keeps no other from its name.
 void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
              const dynamics::Provenance& input) {
+  require_no_run(settings);
   const auto earlier =
       settings.resume == dynamics::Resume::discard ? std::nullopt : job.store.earlier_input();
   if (!earlier || !job.store.has_units()) return job.store.begin(input);
   const std::string other = differences(settings, input, *earlier);
+  if (!other.empty() && settings.resume == dynamics::Resume::replace) {
+    settings.on_replace(other);
+    return job.store.begin(input);
+  }
   require(other.empty() || settings.resume == dynamics::Resume::anyway, job.store.folder(),
           " holds a sweep that did not end, with other input: ", other,
           ". -resume anyway continues it with the present one, -resume discard begins anew");
   if (!other.empty()) print_item("warning", "continues a sweep with other input: " + other);
   const std::vector<SweepUnit> units = job.units();
-  const auto done =
-      std::count_if(units.begin(), units.end(), [&](const auto& u) { return job.store.has(u); });
+  const auto has = [&](const SweepUnit& unit) { return job.store.has(unit); };
+  const auto done = std::count_if(units.begin(), units.end(), has);
+  // An Error before the work where another version of the program left them.
+  if (done > 0) job.store.read(*std::find_if(units.begin(), units.end(), has));
   print_item("continued after", std::to_string(done) + " of " + std::to_string(units.size()) + " parts");
 }
 

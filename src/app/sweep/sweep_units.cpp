@@ -33,6 +33,17 @@ void visit(UnitResult& result, Archive& archive) {
 
 constexpr const char* kUnit = "unit_";  // file names begin so
 
+// What a record of an earlier sweep holds. It may be of another version of the program, or damaged.
+template <class Take>
+auto read_left(const std::string& file, const Take& take) {
+  try {
+    return take(io::read_record(file));
+  } catch (const Error& error) {
+    const std::string why = error.what();
+    fail(why.starts_with(file) ? "" : file + ": ", why, "; -resume discard begins anew");
+  }
+}
+
 std::string why_key(std::size_t i) { return "why_" + std::to_string(i); }
 
 }  // namespace
@@ -65,7 +76,7 @@ std::string UnitStore::input_path() const { return (fs::path(folder_) / "sweep.h
 
 std::optional<std::map<std::string, std::string>> UnitStore::earlier_input() const {
   if (!fs::is_regular_file(input_path())) return {};
-  return io::read_record(input_path()).text;
+  return read_left(input_path(), [](io::StoredRecord record) { return std::move(record.text); });
 }
 
 void UnitStore::begin(const std::map<std::string, std::string>& input) const {
@@ -96,14 +107,15 @@ void UnitStore::write(const SweepUnit& unit, UnitResult& result) const {
 }
 
 UnitResult UnitStore::read(const SweepUnit& unit) const {
-  io::StoredRecord record = io::read_record(path(unit));
-  Archive archive(std::move(record.numbers));
-  UnitResult result;
-  visit(result, archive);
-  archive.finish();
-  for (std::size_t i = 0; i < result.summary.missing.size(); ++i)
-    result.summary.missing[i].why = record.text[why_key(i)];
-  return result;
+  return read_left(path(unit), [](io::StoredRecord record) {
+    Archive archive(std::move(record.numbers));
+    UnitResult result;
+    visit(result, archive);
+    archive.finish();
+    for (std::size_t i = 0; i < result.summary.missing.size(); ++i)
+      result.summary.missing[i].why = record.text[why_key(i)];
+    return result;
+  });
 }
 
 void UnitStore::remove() const {

@@ -1,6 +1,7 @@
 // elastogear mesh: gear data -> volume mesh.
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 
 #include "app/console/console.h"
@@ -10,6 +11,7 @@
 #include "app/gear/drive_options.h"
 #include "app/options/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
@@ -46,6 +48,15 @@ Counts with_given(Counts counts, const Rows<Counts>& rows, const Options& option
   return counts;
 }
 
+// A mesh of another program may be the user's only one.
+void protect_meshes(const Options& options, const std::vector<Outputs>& outputs) {
+  for (const Outputs& output : outputs)
+    for (const std::string& file : output.files)
+      require(!is_file(file) || std::filesystem::is_empty(file) || mesh::is_written_mesh(file),
+              options.label(output.option), ": would overwrite ", file,
+              ", a file that elastogear has not written; move it, or give another name by -", output.option);
+}
+
 // All members of a drive file.
 void mesh_drive(const Options& options) {
   const Drive drive = read_drive(options);
@@ -58,8 +69,10 @@ void mesh_drive(const Options& options) {
     outputs.push_back({option, {paths.back()}});
   }
   const std::string drawing = drawing_file(options);
-  outputs.push_back({"drawing", {drawing}});
-  protect_inputs(options, outputs);
+  std::vector<Outputs> all = outputs;
+  all.push_back({"drawing", {drawing}});
+  protect_inputs(options, all);
+  protect_meshes(options, outputs);
   print_drive(drive);
   std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -83,6 +96,7 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
   const bool worm = is_worm(options);
   const std::string path = options.text("mesh");
   protect_inputs(options, {{"mesh", {path}}});
+  protect_meshes(options, {{"mesh", {path}}});
   const OutputLock lock(path);
   Design d;
   read_rows(options, design_rows(), d);

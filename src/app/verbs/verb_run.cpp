@@ -2,12 +2,7 @@
 // it is not there already, on meshes that are refined until the stresses at the roots are as accurate as
 // asked.
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <utility>
@@ -18,23 +13,15 @@
 #include "app/options/rows.h"
 #include "app/options/verbs.h"
 #include "app/run/loaded_sides.h"
+#include "app/run/next_mesh.h"
 #include "app/run/report_page.h"
 #include "app/run/run_on_mesh.h"
 #include "app/setup/drive_on_meshes.h"
-#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
-#include "elastogear/base/petsc.h"
-#include "elastogear/evaluation/grid_convergence.h"
 
 namespace elastogear::app {
 namespace {
-
-// Times the counts of size tiny. Ratios of at least 1.3 tell changes from scatter (ASME V&V 20).
-constexpr double kRefinements[] = {1, 1.5, 2, 3, 4, 6};
-constexpr int kMeshes = static_cast<int>(std::size(kRefinements));
-constexpr double kLongest = 1200;  // s, that one more mesh may take
-constexpr double kCost = 4;        // power of the refinement that time and memory grow with
 
 struct RunSettings {
   double accuracy = 5;          // %
@@ -82,68 +69,15 @@ bool chooses_mesh(const Options& given, const RunOnMesh& of, const Drive& drive)
   return is_at_rest(of);
 }
 
-double number_on_rank_0(const std::function<double()>& number) {
-  double value = 0;
-  collectively(PETSC_COMM_WORLD, [&] {
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    if (rank == 0) value = number();
-  });
-  MPI_Bcast(&value, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
-  return value;
-}
-
-// Memory (bytes) and time (s) that one more mesh takes on rank 0, and the memory of its machine.
-struct Cost {
-  double memory = 0, seconds = 0, machine = 0;
-};
-
-bool is_affordable(const Cost& cost) { return cost.seconds <= kLongest && cost.memory <= cost.machine; }
-
-// seconds: that a mesh took. Collective.
-Cost cost_of_finer(int mesh, int finer, double seconds) {
-  const double times = std::pow(kRefinements[finer] / kRefinements[mesh], kCost);
-  const double held = number_on_rank_0([] {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
-  });
-  const double machine = number_on_rank_0([] {
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  });
-  return {times * held, times * seconds, machine};
-}
-
-// The next finer mesh. Those that would miss the accuracy asked are passed over as far as one beyond them is
-// affordable. seconds: that this mesh took.
-int finer_mesh(int mesh, double error, double accuracy, double seconds) {
-  const double least = evaluation::least_refinement(error, accuracy, kRefinements[mesh]);
-  int finer = mesh + 1;
-  while (finer + 1 < kMeshes && kRefinements[finer] < least &&
-         is_affordable(cost_of_finer(mesh, finer + 1, seconds)))
-    ++finer;
-  return finer;
-}
-
-// Says what the next finer mesh would take if time or memory do not suffice for it; empty if they do.
-std::string obstacle_to_finer(int mesh, double seconds) {
-  if (mesh + 1 == kMeshes) return "there is no finer mesh on offer";
-  const Cost cost = cost_of_finer(mesh, mesh + 1, seconds);
-  if (is_affordable(cost)) return "";
-  std::ostringstream finer;
-  finer << "the next mesh would take about " << duration(cost.seconds) << " and "
-        << short_number(1e-9 * cost.memory) << " GB of memory; -refinement " << kRefinements[mesh + 1]
-        << " makes it";
-  return finer.str();
-}
+double refinement(const Drive& drive, int mesh) { return drive.refinements[static_cast<std::size_t>(mesh)]; }
 
 // Returns whether the run ends with this mesh, and says how accurate it is.
-bool ends_here(int mesh, double error, double accuracy, double seconds) {
+bool ends_here(const Drive& drive, int mesh, double error, double accuracy, const Cost& cost) {
   const bool reached = error < 0 || error <= accuracy;
-  const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, seconds);
+  const std::string obstacle = reached ? "" : obstacle_to_finer(drive.refinements, mesh, cost);
   std::ostringstream said;
   said << percent(error) << " of the largest tension at a root by estimate, " << percent(accuracy)
-       << " asked; counts " << kRefinements[mesh] << " times those of size tiny";
+       << " asked; counts " << refinement(drive, mesh) << " times those of size tiny";
   if (!obstacle.empty()) said << "; not reached: " << obstacle;
   if (error < 0)
     print_item("accuracy", "not estimated: no root of an elastic gear has a tension");
@@ -159,51 +93,55 @@ double error_in(const std::string& evaluation) {
 // The files of a mesh in its own folder, where those of all meshes but the last one are kept.
 RunOnMesh on_mesh_apart(const RunOnMesh& of, const Drive& drive, int mesh) {
   std::ostringstream folder;
-  folder << folder_of_meshes(of.reduce) << "/" << kRefinements[mesh];
-  return on_mesh(of, drive, kRefinements[mesh], folder.str());
+  folder << folder_of_meshes(of.reduce) << "/" << refinement(drive, mesh);
+  return on_mesh(of, drive, refinement(drive, mesh), folder.str());
+}
+
+// Tells what a mesh took, beside the files of meshes.
+std::string cost_file(const RunOnMesh& of, const Drive& drive, int mesh) {
+  std::ostringstream name;
+  name << folder_of_meshes(of.reduce) << "/cost_" << refinement(drive, mesh) << ".h5";
+  return name.str();
 }
 
 // The next mesh after one whose evaluation is there: a finer one of which something is there, too, if there
-// is any. Size tiny alone has no estimate of its error. seconds: that this mesh took; infinite where not all
-// of it was made now, so that no mesh is passed over.
-int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy, double seconds) {
-  for (int finer = mesh + 1; finer < kMeshes; ++finer)
+// is any. Size tiny alone has no estimate of its error.
+int mesh_after(int mesh, const RunOnMesh& of, const Drive& drive, double accuracy) {
+  for (int finer = mesh + 1; finer < std::ssize(drive.refinements); ++finer)
     for (const RunOnMesh& there :
-         {on_mesh_apart(of, drive, finer), on_mesh(of, drive, kRefinements[finer], "")})
+         {on_mesh_apart(of, drive, finer), on_mesh(of, drive, refinement(drive, finer), "")})
       if (has_bodies(there, drive) || has_evaluation(there)) return finer;
   if (mesh == 0) return 1;
   const double error = error_in(evaluation_file(on_mesh_apart(of, drive, mesh)));
-  return finer_mesh(mesh, error, accuracy, seconds);
+  return finer_mesh(drive.refinements, mesh, error, accuracy, known_cost(cost_file(of, drive, mesh)));
 }
 
 // Refines from size tiny on, Eq. (10.15) to (10.18). All meshes but the last have their files in folders.
 void run_accurately(RunOnMesh of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
-  for (int mesh = 0; mesh < kMeshes;) {
+  const int n_meshes = static_cast<int>(drive.refinements.size());
+  for (int mesh = 0; mesh < n_meshes;) {
     const RunOnMesh apart = on_mesh_apart(of, drive, mesh);
-    const bool last = mesh + 1 == kMeshes;
-    print_item("mesh", "counts " + with_unit(kRefinements[mesh], "times those of size tiny"));
+    const bool last = mesh + 1 == n_meshes;
+    print_item("mesh", "counts " + with_unit(refinement(drive, mesh), "times those of size tiny"));
     if (!last && has_evaluation(apart)) {
       coarser.push_back(evaluation_file(apart));
       print_item("evaluate", coarser.back() + " is there");
       if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-      mesh = mesh_after(mesh, of, drive, accuracy, INFINITY);
+      mesh = mesh_after(mesh, of, drive, accuracy);
       continue;
     }
     const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
-    const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, kRefinements[mesh], "");
+    const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, refinement(drive, mesh), "");
     const bool is_new = !has_bodies(here, drive);
-    const auto start = std::chrono::steady_clock::now();
-    make(here, drive, coarser);
-    const double seconds = number_on_rank_0(
-        [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
+    const Cost cost = cost_of(cost_file(of, drive, mesh), is_new, [&] { make(here, drive, coarser); });
     if (!is_apart) {
-      if (ends_here(mesh, error_in(evaluation_file(here)), accuracy, seconds)) return;
+      if (ends_here(drive, mesh, error_in(evaluation_file(here)), accuracy, cost)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
     if (mesh == 0) of = with_loaded_sides(std::move(of), drive, result_file(apart));
-    mesh = mesh_after(mesh, of, drive, accuracy, is_new ? seconds : INFINITY);
+    mesh = mesh_after(mesh, of, drive, accuracy);
   }
 }
 

@@ -281,7 +281,7 @@ std::unique_ptr<dynamics::System> make_system(const Options& given, Analysis kin
 }
 
 void run_simulate(const Options& given, const std::vector<std::string>&) {
-  use_one_blas_thread();
+  const OneBlasThread one_thread;
   if (analysis(given) == Analysis::sweep) return run_sweep(given);
   int n_ranks = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &n_ranks);

@@ -82,6 +82,7 @@ bool follow(Equilibrium& at, LoadPath& path, const StaticSettings& settings, Fou
   const bool relaxes = settings.time_under_load > 0;
   try {
     if (relaxes) system.advance_relaxation(0);
+    report(progress, "static", path.reached);
     while (path.reached < 1) {
       if (!advance(at, snes, path, to.summary)) continue;
       to.enter(at, path, relaxes ? 0 : path.reached, !relaxes || path.reached == 1);
@@ -89,6 +90,7 @@ bool follow(Equilibrium& at, LoadPath& path, const StaticSettings& settings, Fou
     }
     if (!relaxes) return true;
     double reached = 0;
+    report(progress, "relaxing", reached);
     for (double end : relaxing_times(system, settings.time_under_load))
       while (reached < end) {
         relax_once(at, snes, path, {reached, end}, to);

@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/resumable_run.h"
 
+#include "dynamics/run/run.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/io/result_file.h"
@@ -8,13 +9,27 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr std::string_view kOption = "option_";  // beginning of the keys of options in the provenance
+constexpr const char* kRemedy = "; -resume discard begins anew";
+
+// Null where there is none. What is there may be of another version of the program, or damaged.
+std::optional<io::UnfinishedRun> left_behind(const std::string& output) {
+  try {
+    return io::read_unfinished_run(output);
+  } catch (const Error& error) {
+    fail(error.what(), kRemedy);
+  }
+}
 
 std::optional<io::UnfinishedRun> earlier_run(const ResumableSettings& settings,
                                              const model::ResultHeader& header) {
   if (settings.resume == Resume::discard) return {};
-  std::optional<io::UnfinishedRun> earlier = io::read_unfinished_run(settings.output);
+  std::optional<io::UnfinishedRun> earlier = left_behind(settings.output);
   if (!earlier) return {};
   const std::string other = differences(settings, header.provenance, earlier->provenance);
+  if (!other.empty() && settings.resume == Resume::replace) {
+    if (settings.on_replace) settings.on_replace(other);
+    return {};
+  }
   require(other.empty() || settings.resume == Resume::anyway, settings.output,
           ".partial holds a run that did not end, until t = ", earlier->time, " s, with other input: ", other,
           ". -resume anyway continues it with the present one, -resume discard begins anew");
@@ -56,6 +71,8 @@ RunSummary write_run(Writing& run, const Computation& computation, const Checkpo
         checkpoints);
   } catch (const WriteFailure&) {
     throw;
+  } catch (const UnfitState& error) {
+    fail(run.settings.output, ".partial: ", error.what(), kRemedy);
   } catch (const std::exception& error) {  // memory that lacks, too
     if (run.writer.n_times() == 0) throw;
     run.writer.finish(false);
@@ -87,6 +104,13 @@ std::string differences(const ResumableSettings& settings, const Provenance& now
     text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
   }
   return text;
+}
+
+void require_no_run(const ResumableSettings& settings) {
+  if (settings.resume == Resume::discard) return;
+  if (const auto run = left_behind(settings.output))
+    fail(settings.output, ".partial holds a run that did not end, until t = ", run->time,
+         " s. Another -output leaves it there, -resume discard removes it");
 }
 
 RunSummary resumable_run(const ResumableSettings& settings, const model::ResultHeader& header,

@@ -18,6 +18,11 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// A checkpoint is of another system, or of another version of the program.
+struct UnfitState : Error {
+  using Error::Error;
+};
+
 /// What the control of steps measures errors against.
 struct StepControl {
   Eigen::VectorXd per_length = {};  // changes of the coordinates that move a body's surface by up to 1 m

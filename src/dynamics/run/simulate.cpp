@@ -90,7 +90,8 @@ void require_solved(const Run& run, TS ts) {
           run.summary.pair.empty() ? "" : ", a smaller -contact_stiffness or a larger -contact_depth");
 }
 
-// The first step must not pass the end.
+// The first step must not pass the end. One that ends there is left as it is: a run that goes on has chosen
+// it.
 void end_on_time(TS ts) {
   PetscReal time = 0, end = 0, dt = 0;
   TSExactFinalTimeOption option = TS_EXACTFINALTIME_UNSPECIFIED;
@@ -100,7 +101,7 @@ void end_on_time(TS ts) {
   check(TSGetExactFinalTime(ts, &option));
   const double left = end - time;
   const bool reaches = dt >= left || PetscIsCloseAtTol(dt, left, 10 * PETSC_MACHINE_EPSILON, 0);
-  if (option == TS_EXACTFINALTIME_MATCHSTEP && reaches) check(TSSetTimeStep(ts, left));
+  if (option == TS_EXACTFINALTIME_MATCHSTEP && reaches && time + dt != end) check(TSSetTimeStep(ts, left));
 }
 
 TSConvergedReason reason_of_extent(TS ts) {
@@ -209,9 +210,14 @@ void request_stop(Run& run) {
 }
 
 void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
-  Archive archive(state);
-  serialize_state(run, ts, archive);
-  archive.finish();
+  try {
+    Archive archive(state);
+    serialize_state(run, ts, archive);
+    archive.finish();
+  } catch (const Error& error) {
+    throw UnfitState(std::string("the checkpoint is of other bodies or another version of the program: ") +
+                     error.what());
+  }
 }
 
 }  // namespace

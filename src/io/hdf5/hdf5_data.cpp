@@ -2,6 +2,7 @@
 // alone, that of the object's header, in which it stands.
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <numeric>
@@ -20,6 +21,18 @@ constexpr hsize_t kBlock = 128;  // rows and columns of a chunk of a matrix, 128
 // A compressed dataset is at most about 1000 times its bytes in the file: more is a damaged header.
 constexpr double kMaxRatio = 2000, kSlack = 1 << 20;
 constexpr const char* kNotFinite = "holds a number that is not finite";
+
+// Properties of reading and writing: numbers are converted in memory of ours. Where HDF5 lacks memory for
+// that, it clears its lists of free blocks, the one in use among them, and goes on with what it has freed.
+hid_t transfer() {
+  constexpr std::size_t kSize = 1 << 16;
+  alignas(std::max_align_t) static unsigned char converted[kSize], background[kSize];
+  static const hid_t properties = [] {
+    const hid_t made = H5Pcreate(H5P_DATASET_XFER);
+    return made >= 0 && H5Pset_buffer(made, kSize, converted, background) >= 0 ? made : H5P_DEFAULT;
+  }();
+  return properties;
+}
 
 bool is_empty(const Shape& shape) { return std::find(shape.begin(), shape.end(), 0u) != shape.end(); }
 
@@ -128,7 +141,7 @@ void write(const File& file, const std::string& name, const View<T>& view, const
   const Shape chunk = empty || view.shape.empty() ? view.shape : chunk_of_rows(view.shape, sizeof(T));
   const Id dataset = create_dataset(file, name, native<T>(), simple_space(view.shape),
                                     creation_properties(view.shape, chunk, compress));
-  const bool written = empty || H5Dwrite(dataset, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, view.data) >= 0;
+  const bool written = empty || H5Dwrite(dataset, native<T>(), H5S_ALL, H5S_ALL, transfer(), view.data) >= 0;
   check_written(written, file, name);
   set_attribute(file, name, "unit", unit);
 }
@@ -153,7 +166,7 @@ void write_blocks(const File& file, const std::string& name, const View<double>&
       if ((block.array() == 0).all()) continue;
       const Id space(H5Dget_space(dataset)), memory = simple_space(count);
       H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-      check_written(H5Dwrite(dataset, native<double>(), memory, space, H5P_DEFAULT, block.data()) >= 0, file,
+      check_written(H5Dwrite(dataset, native<double>(), memory, space, transfer(), block.data()) >= 0, file,
                     name);
     }
   set_attribute(file, name, "unit", unit);
@@ -201,8 +214,8 @@ std::vector<T> read(const File& file, const std::string& name, const Shape& expe
     fail(file.path, ": ", name, " has the shape ", text(found), ", must be ", text(expected));
   std::vector<T> values(checked_size(file, name, found));
   require_read(
-      values.empty() || H5Dread(dataset, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-      file, name);
+      values.empty() || H5Dread(dataset, native<T>(), H5S_ALL, H5S_ALL, transfer(), values.data()) >= 0, file,
+      name);
   if (finite == Finite::required) require_finite(values.data(), values.size(), file, name);
   return values;
 }
@@ -251,7 +264,7 @@ void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data
   if (const std::optional<bool> written = write_chunks(dataset, rows, data))
     return check_written(*written, file, "a dataset");
   const Id space = select(dataset, rows), memory = simple_space(rows.count);
-  check_written(space >= 0 && H5Dwrite(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file,
+  check_written(space >= 0 && H5Dwrite(dataset, native<T>(), memory, space, transfer(), data) >= 0, file,
                 "a dataset");
 }
 template void write_rows(const File&, hid_t, const Rows&, const double*);
@@ -264,7 +277,7 @@ void read_rows(const File& file, const std::string& name, const Rows& rows, T* d
   check(space >= 0, file, name, "lacks rows");
   if (const std::optional<bool> finite = read_chunks(dataset, rows, data))
     return check(*finite, file, name, kNotFinite);
-  require_read(H5Dread(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file, name);
+  require_read(H5Dread(dataset, native<T>(), memory, space, transfer(), data) >= 0, file, name);
   require_finite(data,
                  std::accumulate(rows.count.begin(), rows.count.end(), std::size_t{1}, std::multiplies<>()),
                  file, name);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Parts of older versions lack what those of this one have.
-constexpr Format kStateFormat{"elastogear state", 5, 5};
+constexpr Format kStateFormat{"elastogear state", 6, 6};
 constexpr const char* kStateFile = "state.h5";
 constexpr const char* kPartPrefix = "part_";
 constexpr hsize_t kNumbersAtOnce = 1 << 20;
@@ -37,9 +37,6 @@ struct StoredState {
 };
 
 StoredState read_state(const std::string& result) {
-  const int found = version(h5::open(state_path(result)));
-  require(found >= kStateFormat.oldest, state_path(result), ": has version ", found,
-          " and goes on with the program that wrote it; this one begins anew with -resume discard");
   const h5::File file = open_format(state_path(result), kStateFormat);
   return {h5::int_attribute(file, "/", "parts").front(),
           {h5::number_attribute(file, "/", "last_time"), h5::int_attribute(file, "/", "times").front(),

@@ -1,9 +1,10 @@
 #pragma once
-// Gmsh's element types (reference manual, section "Node ordering").
+// Gmsh's element types (reference manual, section "Node ordering"), and what our own .msh files are known by.
 
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "elastogear/mesh/mesh.h"
 
@@ -16,6 +17,9 @@ struct ElementType {
   const char* plural;
   std::optional<CellType> cell = std::nullopt;
 };
+
+/// The section behind the format.
+constexpr std::string_view kSignature = "$Comments\nelastogear mesh, in m\n$EndComments\n";
 
 constexpr int kPoint = 15, kTriangle = 2, kQuadrangle = 3;
 

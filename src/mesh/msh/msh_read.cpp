@@ -185,10 +185,12 @@ void read_elements(MshScanner& in, Raw& raw) {
   if (total != announced) in.fail_here("the section announces ", announced, " elements and holds ", total);
 }
 
+constexpr std::string_view kComments = "$Comments";
+
 // Sections that leave the mesh as it is.
-constexpr std::string_view kHarmless[] = {"$Comments",         "$Periodic",        "$NodeData",
-                                          "$ElementData",      "$ElementNodeData", "$InterpolationScheme",
-                                          "$Parametrizations", "$GhostElements"};
+constexpr std::string_view kHarmless[] = {
+    "$Periodic",         "$NodeData",     "$ElementData", "$ElementNodeData", "$InterpolationScheme",
+    "$Parametrizations", "$GhostElements"};
 
 void read_section(MshScanner& in, Raw& raw, const std::string& name) {
   const bool again = (name == "$Nodes" && raw.has_nodes) || (name == "$Elements" && raw.has_elements);
@@ -211,6 +213,8 @@ void read_section(MshScanner& in, Raw& raw, const std::string& name) {
   } else if (name == "$Elements") {
     read_elements(in, raw);
     raw.has_elements = true;
+  } else if (name == kComments) {
+    return in.skip_past(end);
   } else {
     const bool known = std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
     ++(known ? raw.left_out : raw.unknown)["section " + name];

@@ -233,6 +233,7 @@ void write_msh(const std::string& path, const Mesh& mesh, Encoding encoding) {
   out.binary = encoding == Encoding::binary;
   if (out.binary) out.integer(1);
   out.end("MeshFormat");
+  out.text += kSignature;
   write_physical_names(out, mesh);
   const std::vector<Volume> volume = volumes(mesh);
   write_entities(out, mesh, volume);

@@ -35,6 +35,7 @@ void add_static_solutions(RitzSpace& space, const RitzTask& task, const Progress
   const std::vector<int>& row = task.interface_rows;
   const int n = static_cast<int>(row.size());
   ShiftedFactor factor(task.K, task.M);
+  report(progress, kStage, 0);
   factorise_stiffness(factor);
   for (int first = 0; first < n; first += kSolvedTogether) {
     MatrixXd U = MatrixXd::Zero(end - begin, std::min(kSolvedTogether, n - first));
@@ -92,6 +93,7 @@ RitzSpace krylov(const RitzTask& task, const RitzSpace& empty, const Progress& p
   RitzSpace space = make_space(*empty.K, *empty.M, task.eigen.n_modes);
   ShiftedFactor factor(task.K, task.M);
   const auto& shift = task.options.shift;
+  report(progress, "Krylov space", 0);
   for (std::size_t j = 0; j < shift.size(); ++j) {
     const int end = static_cast<int>((j + 1) * static_cast<std::size_t>(task.eigen.n_modes) / shift.size());
     factor.factorise(shift_in_rad(shift[j]));

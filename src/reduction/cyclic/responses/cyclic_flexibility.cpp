@@ -236,12 +236,12 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
       };
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
+      report_part(0);
       if (condensed) {
         own.push_back(condensed->find(harmonic));
         report_part(1);
         continue;
       }
-      report_part(0);
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();
