@@ -40,7 +40,7 @@ def figure(case, quantity, value, bound=None, unit="", above=False):
 class Figure:
     value: float
     relation: str  # "<", ">" or "" without a bound
-    bound: float
+    bound: float | None
     unit: str
 
     def text(self):
@@ -86,7 +86,7 @@ def read(path):
                 continue
             case, quantity, value, bound, unit = (part.strip() for part in line.split("FIGURE ", 1)[1].split("|"))
             relation, _, bound = bound.partition(" ")
-            found = Figure(float(value), relation, float(bound or "nan"), unit)
+            found = Figure(float(value), relation, float(bound) if relation else None, unit)
             figures[case, quantity] = worse(figures[case, quantity], found) if (case, quantity) in figures else found
     return figures
 

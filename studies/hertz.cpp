@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "../tests/figure_line.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/contact/true_surface.h"
@@ -307,13 +308,17 @@ Row solve(const std::string& folder, const Method& method, int facets) {
 }
 
 bool all_close(const std::string& folder, const Method& method, const std::vector<int>& facets) {
-  constexpr double kTolerance = 0.05, kEnough = 8;  // of the pressure, from so many facets on
+  constexpr double kTolerance = 0.05;  // of the pressure
+  constexpr int kEnough = 8;           // facets
   bool close = true;
   std::printf("                                             over Hertz's values:\n");
   std::printf("facets    nodes contacts force, N  p_0, MPa p_max         a         b   sigma_n\n");
   for (int n : facets) {
     const Row row = solve(folder, method, n);
-    close &= row.facets < kEnough || std::abs(row.pressure - 1) < kTolerance;
+    if (n < kEnough) continue;
+    elastogear::test::state_figure("flanks of the worm drive", std::to_string(n) + " facets: peak pressure",
+                                   "%", row.pressure - 1, "< 0.05");
+    close &= std::abs(row.pressure - 1) < kTolerance;
   }
   return close;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "../contact/surfaces.h"
+#include "../figures.h"
 #include "contact_bodies.h"
 #include "elastogear/dynamics/simulate.h"
 
@@ -18,6 +19,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
+constexpr const char* kCase = "damping and friction of contact";
 
 model::Surface shifted(model::Surface s, const Vector3d& by) {
   s.X.colwise() += by;
@@ -68,7 +70,7 @@ TEST_P(Restitution, is_that_of_the_damping_law) {
   const double e = x == 0 ? 1 : std::sqrt(2 * (x - std::log1p(x))) / x;
   ASSERT_EQ(h.snapshot.back().pairs[0].count, 0);
   EXPECT_GT(h.summary.most_contacts, 0);
-  EXPECT_NEAR((speed(0) - speed(1)) / kSpeed, e, kLaw);
+  elastogear::test::figure({kCase, "restitution"}, (speed(0) - speed(1)) / kSpeed - e, kLaw);
   EXPECT_NEAR(2 * speed(0) + 3 * speed(1), -2 * kSpeed, 1e-9);
   EXPECT_LT(h.summary.largest_imbalance, kLaw * h.summary.initial_energy);
 }
@@ -100,7 +102,7 @@ TEST_P(Sliding, stops_after_the_way_of_Coulomb_friction) {
   System system = block_on_plate(GetParam(), kSpeed, 0);
   const History h = run(system, 2e-3, 1.9, 0.8);
   const model::Snapshot& last = h.snapshot.back();
-  EXPECT_NEAR(last.bodies[0].s[0], kWay, kLaw * kWay);
+  elastogear::test::figure({kCase, "sliding distance", "%"}, last.bodies[0].s[0] / kWay - 1, kLaw);
   EXPECT_LT(last.bodies[0].s_dot.head<3>().norm(), 1e-2);
   const double lost = 0.5 * 10 * kSpeed * kSpeed;
   EXPECT_NEAR(last.energy.dissipated, lost, 0.01 * lost);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "../figures.h"
 #include "box_body.h"
 #include "contact_bodies.h"
 
@@ -13,6 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr const char* kCase = "patch test over faces";
 const model::Material kSteel{2e11, 0.3, 8000};
 constexpr double kPressed = 1e-4;  // m, the far end of the upper block
 constexpr int kModes = 10;         // of a block with residual flexibility
@@ -87,8 +89,8 @@ TEST(PatchTest, is_passed_on_any_meshes_by_contact_integrated_over_faces) {
     const PatchErrors error = patch_errors(patch);
     std::printf("%d under %d cells: pressure %.1e, displacement %.1e\n", patch.lower, patch.upper,
                 error.pressure, error.displacement);
-    EXPECT_LT(error.pressure, kNewton);
-    EXPECT_LT(error.displacement, kNewton);
+    test::figure({kCase, "pressure"}, error.pressure, kNewton);
+    test::figure({kCase, "displacement"}, error.displacement, kNewton);
   }
 }
 
@@ -100,7 +102,7 @@ TEST(PatchTest, is_passed_by_residual_flexibility_without_a_penalty) {
     const PatchErrors error = patch_errors(patch);
     std::printf("%d under %d cells, unilateral: pressure %.1e, displacement %.1e\n", patch.lower, patch.upper,
                 error.pressure, error.displacement);
-    EXPECT_LT(error.pressure, kSinglePrecision);
+    test::figure({kCase, "pressure with residual flexibility"}, error.pressure, kSinglePrecision);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "../figures.h"
 #include "../message_of.h"
 #include "box_body.h"
 #include "elastogear/base/error.h"
@@ -111,7 +112,7 @@ TEST(Rod, creeps_under_load_over_twelve_decades) {
             force / kStiffness / rise * (creep_integral(g, tau, t) - creep_integral(g, tau, late));
         worst = std::max(worst, std::abs(x - exact));
       }
-      EXPECT_LT(worst, kClosedForm * force / kStiffness) << tau;
+      test::figure({"creep of a rod", "displacement"}, worst * kStiffness / force, kClosedForm);
       std::printf("creep, time of %g s: largest error %.1e of the elastic displacement\n", tau,
                   worst * kStiffness / force);
       EXPECT_NEAR(found.back().x * kStiffness / force, creep(g, tau, 6 * tau), 0.05);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../figures.h"
 #include "../message_of.h"
 #include "box_body.h"
 #include "contact_bodies.h"
@@ -128,8 +129,10 @@ TEST(Static, multigrid_finds_the_equilibrium_of_the_factor) {
   const model::Snapshot expected = pushed();
   const test::Option multigrid("-elastic_pc_type", "gamg"), tolerance("-ksp_rtol", "1e-6");
   const model::Snapshot found = pushed();
-  EXPECT_NEAR(found.bodies[0].s[0], expected.bodies[0].s[0], kNewton * expected.bodies[0].s[0]);
-  EXPECT_LT((found.bodies[1].q - expected.bodies[1].q).norm(), kNewton * expected.bodies[1].q.norm());
+  const std::string of = "multigrid, block";
+  test::figure({of, "displacement"}, found.bodies[0].s[0] / expected.bodies[0].s[0] - 1, kNewton);
+  test::figure({of, "deformation"},
+               (found.bodies[1].q - expected.bodies[1].q).norm() / expected.bodies[1].q.norm(), kNewton);
 }
 
 TEST(Static, forces_grow_with_the_load_factor) {

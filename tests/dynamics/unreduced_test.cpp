@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "../fem/other_cells.h"
+#include "../figures.h"
 #include "../reduction/calculix.h"
 #include "box_body.h"
 #include "elastogear/base/petsc.h"
@@ -248,7 +249,7 @@ TEST(FlyingBox, moves_as_its_finite_elements_do_in_absolute_coordinates) {
   };
   const double full_error = error_of(InertiaLevel::full), linear_error = error_of(InertiaLevel::linear);
   std::cout << "error of positions: full " << full_error << " m, linear " << linear_error << " m\n";
-  EXPECT_LT(full_error, 1.5e-4);
+  test::figure({"free flight of a box", "path at level `full`", "m"}, full_error, 1.5e-4);
   EXPECT_GT(linear_error, 500 * full_error);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../figures.h"
 #include "elastogear/base/error.h"
 #include "elastogear/model/hertz.h"
 #include "rigid_drives.h"
@@ -76,8 +77,10 @@ TEST(LargestShear, without_friction_is_that_of_the_closed_forms) {
   const double table[][3] = {{0.2, 0.322, 0.745}, {0.4, 0.325, 0.665}, {0.8, 0.317, 0.53}};  // table 4.1
   for (const auto& [axes, stress, depth] : table) {
     const ShearBelow ellipse = largest_shear({1e9, 2e-4, axes}, 0);
-    EXPECT_NEAR(ellipse.stress, stress * 1e9, 1e6) << axes;
-    EXPECT_NEAR(ellipse.depth, depth * 2e-4, 0.01 * 2e-4) << axes;
+    const std::string of = "shear below ellipses";
+    elastogear::test::figure({of, "largest shear over the largest pressure"}, ellipse.stress / 1e9 - stress,
+                             1e-3);
+    elastogear::test::figure({of, "its depth over the half width", "%"}, ellipse.depth / 2e-4 - depth, 0.01);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "../figures.h"
 #include "elastogear/base/tensor.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/mesh/surface_patches.h"
@@ -268,7 +269,10 @@ TEST_P(StressConcentration, is_nearer_to_the_closed_form_than_averages) {
     }
     EXPECT_LT(recovered, 0.6 * averaged);
   }
-  EXPECT_LT(recovered, c.at_finest);
+  test::figure(
+      {std::string(c.name) + ", " + mesh::name(c.type) + ", " + std::to_string(c.n.back()) + " faces",
+       "stress tensor", "%"},
+      recovered, c.at_finest);
   EXPECT_GT(averaged, c.gain * recovered);
 }
 

@@ -15,6 +15,7 @@
 #include <set>
 
 #include "../fem/system.h"
+#include "../figures.h"
 #include "elastogear/base/error.h"
 #include "reduction/nested/dissection.h"
 #include "reduction/static_response/nested/directions.h"
@@ -122,7 +123,7 @@ TEST(NestedResponse, is_that_of_the_inverse_whatever_the_parts) {
   for (int leaf : {kSmallLeaf, 100, 100'000}) {
     NestedResponse response(system.matrices.K, P, loads, {}, leaf);
     std::vector<int> asked = all_in(response);
-    EXPECT_LE(deviation_of(response, exact).largest, kSingle) << leaf;
+    test::figure({"nested dissection, block", "responses"}, deviation_of(response, exact).largest, kSingle);
     std::sort(asked.begin(), asked.end());
     EXPECT_EQ(asked, loads);
   }

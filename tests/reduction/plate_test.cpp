@@ -6,6 +6,7 @@
 
 #include "../fem/other_cells.h"
 #include "../fem/system.h"
+#include "../figures.h"
 #include "elastogear/reduction/eigenmodes.h"
 
 namespace elastogear::plate_test {
@@ -75,7 +76,7 @@ TEST_P(Plate, has_the_published_frequencies_of_fv52) {
   for (int i = 0; i < 7; ++i) {
     const double ratio = f(kRigid + i) / kTarget[i];
     std::cout << mesh::name(type) << " " << f(kRigid + i) << " Hz, f/target " << ratio << "\n";
-    EXPECT_NEAR(ratio, published[i], kDigits) << i;
+    test::figure({"plate", "7 frequencies"}, ratio - published[i], kDigits);
   }
 }
 

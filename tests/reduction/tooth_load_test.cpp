@@ -6,6 +6,7 @@
 
 #include "../fem/brick.h"
 #include "../fem/system.h"
+#include "../figures.h"
 #include "calculix.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/gear/worm.h"
@@ -112,7 +113,10 @@ TEST_P(ToothLoad, stresses_the_root_as_in_calculix) {
   const Forces forces = tooth_load(mesh);
   ASSERT_GT(forces.size(), 3u);
   const auto& root = mesh::node_set(mesh, "root");
-  EXPECT_LT(largest_deviation(mesh, GetParam(), root, forces), GetParam().tolerance);
+  test::figure(
+      {"load on a tooth of the worm", std::string("stress at the root by ") + GetParam().calculix_element,
+       GetParam().tolerance == kTaperedCells ? "%" : ""},
+      largest_deviation(mesh, GetParam(), root, forces), GetParam().tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, ToothLoad,
@@ -130,7 +134,8 @@ TEST(SkewBeam, of_incompatible_cells_is_stressed_as_in_calculix) {
   Forces forces;
   for (int node : beam.node_sets.at("xmax")) forces[node] = {0, 300, 1000};
   const Case incompatible{"C3D8I", model::Element::incompatible, kDigits};
-  EXPECT_LT(largest_deviation(beam, incompatible, beam.node_sets.at("ymin"), forces), kDigits);
+  test::figure({"skew beam", "nodal stress"},
+               largest_deviation(beam, incompatible, beam.node_sets.at("ymin"), forces), kDigits);
 }
 
 }  // namespace

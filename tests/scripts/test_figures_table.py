@@ -78,7 +78,7 @@ class Figures(unittest.TestCase):
 
     def test_figures_are_written_into_their_rows_alone(self):
         self.write("figures/blocks", BLOCKS)
-        log = self.write("log", "some text\nFIGURE a study | pressure | 0.0213 |  | %\n")
+        log = self.write("log", "some text\nFIGURE a study | pressure | 0.0213 |  | %\nFIGURE a study | pressure | -0.02 |  | %\n")
         self.assertEqual(self.run_script(log).returncode, 0)
         with open(self.table, encoding="utf-8") as file:
             written = file.read()
