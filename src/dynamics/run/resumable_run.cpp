@@ -101,7 +101,8 @@ std::string differences(const ResumableSettings& settings, const Provenance& now
     const std::string a = value(now, key), b = value(then, key);
     if (a == b || (settings.has_effect && !settings.has_effect(key))) continue;
     const std::string name = key.starts_with(kOption) ? key.substr(kOption.size()) : key;
-    text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
+    text.append(text.empty() ? "" : ", ").append(name).append(" ").append(a);
+    text.append(" (was ").append(b).append(")");
   }
   return text;
 }
