@@ -57,8 +57,8 @@ class Figures(unittest.TestCase):
         self.assertIn("1 rows", done.stdout)
 
     def test_another_bound_value_or_sign_is_found(self):
-        for old, new, complaint in (("< 0.02", "< 0.03", "the bound is '3 %; 1 %'"), ("0.0112", "0.0181", "found '1.8 %;"),
-                                    ("0.0112", "0.0051", "found '0.51 %;"), ("| -0.0049", "| -0.0049", "found '1.1 %; -0.49 %'")):
+        for old, new, complaint in (("< 0.02", "< 0.03", "the bound is '3 %; 1 %'"), ("0.0112", "0.0004", "found '0.04 %;"),
+                                    ("0.0112", "-0.0112", "found '-1.1 %;"), ("| -0.0049", "| -0.0049", "found '1.1 %; -0.49 %'")):
             done = self.check(blocks=BLOCKS.replace(old, new))
             self.assertEqual(done.returncode, 1, complaint)
             self.assertIn(f"two blocks: {complaint}", done.stdout)
