@@ -17,7 +17,7 @@ import sys
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "docs", "validation", "README.md")
 SCALE = {"": 1, "%": 100, "m": 1, "µm": 1e6}  # of a number in the table over the value that is stated
 DIFFERENT = 1.5  # times the value of the table is another value
-SMALL = 0.25  # of the bound: by so much roundoff may change a figure, where contacts open and close
+SMALL = 0.25  # of the bound: room for roundoff of another processor, an assumption that was not measured
 ROUNDOFF = 1e-5  # bounds without a unit of at most that are those of roundoff, or of the tolerance of an iteration
 SKIPPED = 77  # exit status, for ctest
 OWN_FILE = os.environ.get("ELASTOGEAR_FIGURES")  # of a test that ctest starts

@@ -40,7 +40,7 @@ Part part_of(const Drive& drive, const Operation& operation, std::size_t i) {
   return part;
 }
 
-// What the bearings of a gear lack to hold it; empty: nothing.
+// Says which stiffnesses the bearings of a gear need besides to hold it; empty where they hold it.
 std::string lack_of(const Member& member, const std::vector<Bearing>& bearings) {
   double axial = 0, tilt = 0;
   std::vector<std::string> soft, lacks;

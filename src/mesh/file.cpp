@@ -16,7 +16,7 @@
 namespace elastogear::mesh {
 namespace {
 
-// What makes a mesh that is read out of bulk data of Nastran; empty for files of other extensions. Gmsh takes
+// The command that converts bulk data of Nastran into a mesh; empty for files of other extensions. Gmsh takes
 // bulk data by its extension, which .dat is not.
 std::string way_from_bulk_data(const std::string& path, const std::string& extension) {
   if (extension != ".bdf" && extension != ".nas" && extension != ".dat") return "";

@@ -183,7 +183,7 @@ std::string largest_pressure(const std::vector<EvaluationItem>& items) {
   return mean ? "(" + short_number(1e-6 * mean->value[0]) + ")" : kNone;
 }
 
-// What a column of the table of cases says of this one; empty: nothing.
+// The text of a case in a column of the table of cases; empty where the case has none.
 std::string in_column(const Case& of, const std::string& heading) {
   for (const auto& [name, text] : of.columns)
     if (name == heading) return text;

@@ -28,7 +28,7 @@ double memory_held() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-// Of the machine, or less where ulimit says so.
+// Bytes of memory that the machine has, or that ulimit allows where that is less.
 double memory_there() {
   double most = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   for (const auto resource : {RLIMIT_RSS, RLIMIT_AS}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which mesh a run takes next, by the error of the one before and by what a finer one costs.
+// The choice of the next finer mesh of a run, by the estimated error so far and the cost of a finer mesh.
 
 #include <cmath>
 #include <functional>

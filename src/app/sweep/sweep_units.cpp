@@ -33,7 +33,8 @@ void visit(UnitResult& result, Archive& archive) {
 
 constexpr const char* kUnit = "unit_";  // file names begin so
 
-// What a record of an earlier sweep holds. It may be of another version of the program, or damaged.
+// Reads a record of an earlier sweep. Error with the remedy where another version of the program wrote it, or
+// where it is damaged.
 template <class Take>
 auto read_left(const std::string& file, const Take& take) {
   try {
