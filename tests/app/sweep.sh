@@ -60,7 +60,8 @@ grep -q "sweep_positions 21 (was 20)" run.log || fail "the message on other posi
 
 # What another version of the program left is refused with the remedy.
 version() { /usr/bin/python3 -c "import sys, h5py; h5py.File(sys.argv[1], 'r+').attrs['version'] += int(sys.argv[2])" "$1" "$2"; }
-for left in cut.partial/sweep.h5 "$(ls cut.partial/unit_*.h5 | head -1)"; do
+units=(cut.partial/unit_*.h5)
+for left in cut.partial/sweep.h5 "${units[0]}"; do
   version "$left" -1
   "${cases[@]}" -output cut.h5 -resume anyway >run.log 2>&1 && fail "goes on from $left of another version"
   grep -q "$left: has version 1 .*-resume discard begins anew" run.log || { cat run.log; fail "the message on $left of another version"; }
