@@ -21,8 +21,13 @@ recovery::UnreducedResponse unreduced_response(const io::BodySource& source, boo
           }};
 }
 
-Eigen::MatrixXd nodal_stresses(const io::BodySource& source, const Eigen::MatrixXd& U) {
-  return fem::nodal_stresses(reduction::stressed_body(source), U);
+recovery::NodalStresses nodal_stresses(const io::BodySource& source, const std::vector<int>& loaded) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average)
+    body.recovery = {model::RecoveryMethod::surface, loaded};
+  const auto stresses = std::make_shared<fem::NodalStresses>(body);
+  return {[stresses](const Eigen::MatrixXd& U) { return stresses->means(U); }, stresses->free(),
+          stresses->of_free()};
 }
 
 std::vector<int> node_regions(const io::BodySource& source) {
@@ -48,16 +53,6 @@ model::SparseRows stress_operator(const io::BodySource& source, const std::vecto
   return fem::stress_operator(reduction::stressed_body(source), nodes);
 }
 
-Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vector<int>& loaded,
-                                  const Eigen::MatrixXd& U) {
-  fem::StressedBody body = reduction::stressed_body(source);
-  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
-  body.recovery.method = model::RecoveryMethod::surface;
-  const Eigen::MatrixXd recovered = fem::nodal_stresses(body, U);
-  body.recovery.method = model::RecoveryMethod::average;
-  return recovered - fem::nodal_stresses(body, U);
-}
-
 recovery::SurfacePatches surface_patches(const io::BodySource& source, const std::vector<int>& nodes) {
   return {mesh::surface_patches(source.mesh, nodes), mesh::cell_orders(source.mesh, nodes)};
 }
@@ -65,8 +60,8 @@ recovery::SurfacePatches surface_patches(const io::BodySource& source, const std
 }  // namespace
 
 recovery::FiniteElements finite_elements() {
-  return {unreduced_response,        nodal_stresses,  node_regions,      recovery_difference,
-          difference_within_surface, stress_operator, stress_difference, surface_patches};
+  return {unreduced_response,        nodal_stresses,  node_regions,   recovery_difference,
+          difference_within_surface, stress_operator, surface_patches};
 }
 
 }  // namespace elastogear::drive

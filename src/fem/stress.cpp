@@ -11,14 +11,6 @@
 namespace elastogear::fem {
 namespace {
 
-// The cells over which each node averages: its region, and the number of that region's cells at the node.
-struct Averaging {
-  std::vector<int> region_of_cell;
-  std::vector<int> region, count;  // per node
-
-  bool counts(int cell, int node) const { return region_of_cell[cell] == region[node]; }
-};
-
 Averaging find_averaging(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
   const auto n = static_cast<std::size_t>(mesh.n_nodes());
   Averaging average{cell_regions(mesh, regions), std::vector<int>(n, std::numeric_limits<int>::max()),
@@ -142,31 +134,47 @@ std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model:
   return average.region;
 }
 
-Eigen::MatrixXd nodal_stresses(const StressedBody& body, const Eigen::MatrixXd& U) {
-  const mesh::Mesh& mesh = body.mesh;
+NodalStresses::NodalStresses(const StressedBody& body)
+    : body_(body), average_(find_averaging(body.mesh, body.regions)) {
+  const SurfaceRecovery recover(body_, average_);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < body_.mesh.n_nodes(); ++node)
+    if (average_.count[node] > 0)
+      if (const auto rows = recover(node)) {
+        add_rows(entries, static_cast<int>(free_.size()), rows->node, rows->S);
+        free_.push_back(node);
+      }
+  S_free_.resize(6 * std::ssize(free_), 3 * body_.mesh.n_nodes());
+  S_free_.setFromTriplets(entries.begin(), entries.end());
+}
+
+Eigen::MatrixXd NodalStresses::means(const Eigen::MatrixXd& U) const {
+  const mesh::Mesh& mesh = body_.mesh;
   require(U.rows() == 3 * mesh.n_nodes(), "displacement has ", U.rows(), " entries, the mesh needs ",
           3 * mesh.n_nodes());
-  const Averaging average = find_averaging(mesh, body.regions);
   Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(mesh.n_nodes()), U.cols());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const model::Material& material = body.regions[average.region_of_cell[cell]].material;
+    const model::Material& material = body_.regions[average_.region_of_cell[cell]].material;
     const auto nodes = mesh.cells[cell];
-    const Eigen::MatrixXd s = element_stress(mesh, cell, material, body.element) * displacements(nodes, U);
+    const Eigen::MatrixXd s = element_stress(mesh, cell, material, body_.element) * displacements(nodes, U);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      if (average.counts(cell, nodes[a]))
+      if (average_.counts(cell, nodes[a]))
         sigma.middleRows<6>(6 * nodes[a]) +=
-            s.middleRows<6>(static_cast<Eigen::Index>(6 * a)) / average.count[nodes[a]];
+            s.middleRows<6>(static_cast<Eigen::Index>(6 * a)) / average_.count[nodes[a]];
   }
-  const SurfaceRecovery recover(body, average);
-  for (int node = 0; node < mesh.n_nodes(); ++node)
-    if (average.count[node] > 0)
-      if (const auto rows = recover(node))
-        sigma.middleRows<6>(6 * node) = rows->S * displacements(rows->node, U);
+  return sigma;
+}
+
+Eigen::MatrixXd NodalStresses::operator()(const Eigen::MatrixXd& U) const {
+  Eigen::MatrixXd sigma = means(U);
+  const Eigen::MatrixXd of_free = S_free_ * U;
+  for (std::size_t i = 0; i < free_.size(); ++i)
+    sigma.middleRows<6>(6 * free_[i]) = of_free.middleRows<6>(static_cast<Eigen::Index>(6 * i));
   return sigma;
 }
 
 Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u) {
-  return nodal_stresses(body, u).reshaped(6, body.mesh.n_nodes());
+  return NodalStresses(body)(u).reshaped(6, body.mesh.n_nodes());
 }
 
 }  // namespace elastogear::fem

@@ -1,6 +1,7 @@
 #include "elastogear/recovery/field.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "elastogear/base/error.h"
@@ -15,21 +16,34 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using States = std::vector<FieldState>;
 
-// One body's modes and the stresses of its displacements, a column for each of k states.
-struct Fields {
-  const std::string& body_file;
-  const io::BodySource& source;
-  const FiniteElements& finite_elements;
+bool takes_means(const FieldBody& body) {
+  return body.source.recovery.method == model::RecoveryMethod::average;
+}
 
-  // Phi q, 3 n_nodes x k. q: the elastic coordinates that count of a state.
-  template <class Coordinates>
-  MatrixXd displacements(const States& states, const Coordinates& q) const {
-    MatrixXd Q(q(states.front()).size(), std::ssize(states));
-    for (std::size_t i = 0; i < states.size(); ++i) Q.col(static_cast<Index>(i)) = q(states[i]);
-    return io::read_displacement_fields(body_file, Q);
-  }
-  MatrixXd stresses(const MatrixXd& U) const { return finite_elements.nodal_stresses(source, U); }
+// Phi q, 3 n_nodes x k. q: the elastic coordinates that count of a state.
+template <class Coordinates>
+MatrixXd displacements(const FieldBody& body, const States& states, const Coordinates& q) {
+  MatrixXd Q(q(states.front()).size(), std::ssize(states));
+  for (std::size_t i = 0; i < states.size(); ++i) Q.col(static_cast<Index>(i)) = q(states[i]);
+  return io::read_displacement_fields(body.file, Q);
+}
+
+// 6 n_nodes x k, and at free nodes what their recovery gives less the means, 6 n_free x k.
+struct Stresses {
+  MatrixXd at_nodes, difference;
 };
+
+Stresses stresses(const FieldBody& body, const MatrixXd& U) {
+  const NodalStresses& of = body.nodal_stresses;
+  Stresses found{of.means(U), of.of_free * U};
+  for (std::size_t i = 0; i < of.free.size(); ++i) {
+    auto at_node = found.at_nodes.middleRows<6>(6 * of.free[i]);
+    auto difference = found.difference.middleRows<6>(static_cast<Index>(6 * i));
+    difference -= at_node;
+    if (!takes_means(body)) at_node += difference;
+  }
+  return found;
+}
 
 // Adds the static displacement of a state to its column of U, where it has one.
 void add_static(const VectorXd& u, std::size_t state, MatrixXd& U) {
@@ -38,14 +52,15 @@ void add_static(const VectorXd& u, std::size_t state, MatrixXd& U) {
 
 // Takes the stresses that viscoelastic regions have relaxed from those at their nodes. docs/theory, Eq.
 // (4.10).
-void subtract_relaxed(const Fields& fields, const States& states, MatrixXd& stress) {
+void subtract_relaxed(const FieldBody& fields, const States& states, MatrixXd& stress) {
   if (states.front().w.cols() == 0) return;
   const std::vector<int> node_region = fields.finite_elements.node_regions(fields.source);
-  const model::ElasticBody body = io::read_body(fields.body_file, io::BodyUse::motion);
+  const model::ElasticBody body = io::read_body(fields.file, io::BodyUse::motion);
   for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
     const model::RelaxingPart& part = body.relaxing[p];
     const auto lost = [&](const FieldState& state) -> VectorXd { return state.w.col(static_cast<Index>(p)); };
-    const MatrixXd of_part = stress_of_part(fields.stresses(fields.displacements(states, lost)), part.part);
+    const MatrixXd of_part =
+        stress_of_part(stresses(fields, displacements(fields, states, lost)).at_nodes, part.part);
     for (std::size_t node = 0; node < node_region.size(); ++node)
       if (const int r = node_region[node]; r >= 0 && fields.source.regions[r].cell_set == part.cell_set)
         stress.middleRows<6>(static_cast<Index>(6 * node)) -=
@@ -53,46 +68,29 @@ void subtract_relaxed(const Fields& fields, const States& states, MatrixXd& stre
   }
 }
 
-// n_nodes x k, Pa.
-MatrixXd estimated_errors(const Fields& fields, const States& states, const MatrixXd& found) {
-  MatrixXd U = fields.displacements(states, [](const FieldState& s) { return s.reference->q_d; });
+// n_nodes x k, Pa. Three displacements of each state are recovered at once.
+MatrixXd estimated_errors(const FieldBody& body, const States& states, const MatrixXd& found) {
+  const Index k = found.cols();
+  MatrixXd U(3 * body.source.mesh.n_nodes(), 3 * k);
+  U << displacements(body, states, [](const FieldState& s) { return s.reference->q_d; }),
+      displacements(body, states, [](const FieldState& s) { return s.reference->q; }),
+      displacements(body, states, [](const FieldState& s) { return s.reference->q_upper; });
   for (std::size_t i = 0; i < states.size(); ++i) add_static(states[i].reference->u_static, i, U);
-  MatrixXd residual = fields.stresses(U);
-  const MatrixXd whole = von_mises(residual);
-  residual -=
-      fields.stresses(fields.displacements(states, [](const FieldState& s) { return s.reference->q; }));
-  const MatrixXd of_residual = von_mises(residual);
-  residual =
-      fields.stresses(fields.displacements(states, [](const FieldState& s) { return s.reference->q_upper; }));
-  const MatrixXd upper = von_mises(residual);
-  MatrixXd error(found.rows(), found.cols());
-  for (Index i = 0; i < found.cols(); ++i)
+  MatrixXd stress = stresses(body, U).at_nodes;
+  const MatrixXd whole = von_mises(MatrixXd(stress.leftCols(k))),
+                 upper = von_mises(MatrixXd(stress.rightCols(k)));
+  stress.leftCols(k) -= stress.middleCols(k, k);
+  const MatrixXd of_residual = von_mises(MatrixXd(stress.leftCols(k)));
+  MatrixXd error(found.rows(), k);
+  for (Index i = 0; i < k; ++i)
     error.col(i) = field_error({found.col(i), whole.col(i), of_residual.col(i), upper.col(i)},
                                states[static_cast<std::size_t>(i)].reference->share);
   return error;
 }
 
-// The nodes of a body on which forces act, for the estimated error by the mesh at k times.
-struct Loaded {
-  std::vector<int> node;   // mesh numbers
-  SurfacePatches patches;  // around each; of means none
-  MatrixXd difference;     // n_nodes x k, Pa, von Mises stress of Eq. (1.16a); 0 at other nodes
-};
-
-Loaded find_loaded(const Fields& fields, const std::vector<int>& touched, const MatrixXd& U) {
-  const bool averaged = fields.source.recovery.method == model::RecoveryMethod::average;
-  Loaded loaded{averaged ? touched : fields.source.recovery.loaded, {}, {}};
-  const MatrixXd stress =
-      fields.finite_elements.difference_within_surface(fields.source, touched, loaded.node) * U;
-  loaded.difference = MatrixXd::Zero(fields.source.mesh.n_nodes(), U.cols());
-  loaded.difference(loaded.node, Eigen::all) = von_mises(stress);
-  if (!averaged) loaded.patches = fields.finite_elements.surface_patches(fields.source, loaded.node);
-  return loaded;
-}
-
-// The loaded nodes whose faces have a tangent plane, with the error of their means at one time.
-LoadedNodes loaded_nodes(const Loaded& of, Index time, const VectorXd& found) {
-  const VectorXd difference = of.difference.col(time);
+// The loaded nodes whose faces have a tangent plane, with the error of their means at one time. difference:
+// von Mises stresses of Eq. (1.16a), at all nodes of the mesh; 0 at others.
+LoadedNodes loaded_nodes(const LoadedSurface& of, const VectorXd& difference, const VectorXd& found) {
   LoadedNodes loaded;
   std::vector<double> within;
   for (std::size_t i = 0; i < of.node.size(); ++i) {
@@ -109,7 +107,7 @@ LoadedNodes loaded_nodes(const Loaded& of, Index time, const VectorXd& found) {
   return loaded;
 }
 
-// The patches of the nodes that have a difference, of those of several times.
+// The patches of the free nodes that have a difference.
 SurfacePatches patches_of(const std::vector<int>& node, const SurfacePatches& all,
                           const VectorXd& difference) {
   SurfacePatches patches;
@@ -121,23 +119,24 @@ SurfacePatches patches_of(const std::vector<int>& node, const SurfacePatches& al
   return patches;
 }
 
-// n_nodes x k, Pa: Eqs. (1.17) and (1.18a), of displacements U.
-MatrixXd estimated_mesh_errors(const Fields& fields, const std::vector<int>& touched, const MatrixXd& U,
+// von Mises stresses of k tensors at some nodes: n_nodes x k, 0 at others.
+MatrixXd at_all_nodes(const FieldBody& body, const std::vector<int>& nodes, const MatrixXd& stress) {
+  MatrixXd all = MatrixXd::Zero(body.source.mesh.n_nodes(), stress.cols());
+  all(nodes, Eigen::all) = von_mises(stress);
+  return all;
+}
+
+// n_nodes x k, Pa: Eqs. (1.17) and (1.18a), of displacements U. of_free: their difference at free nodes.
+MatrixXd estimated_mesh_errors(const FieldBody& body, const MatrixXd& U, const MatrixXd& of_free,
                                const MatrixXd& found) {
-  const MatrixXd difference = von_mises(fields.finite_elements.stress_difference(fields.source, touched, U));
-  std::vector<int> free;
-  SurfacePatches around;
-  if (fields.source.recovery.method == model::RecoveryMethod::surface) {
-    for (int i = 0; i < difference.rows(); ++i)
-      if (difference.row(i).maxCoeff() > 0) free.push_back(i);
-    around = fields.finite_elements.surface_patches(fields.source, free);
-  }
-  const Loaded loaded = find_loaded(fields, touched, U);
+  const std::vector<int>& free = body.nodal_stresses.free;
+  const MatrixXd difference = at_all_nodes(body, free, of_free),
+                 within = at_all_nodes(body, body.loaded->node, body.loaded->difference * U);
   MatrixXd error(found.rows(), found.cols());
   for (Index i = 0; i < found.cols(); ++i)
-    error.col(i) =
-        mesh_error_field(difference.col(i), found.col(i), patches_of(free, around, difference.col(i)),
-                         loaded_nodes(loaded, i, found.col(i)));
+    error.col(i) = mesh_error_field(difference.col(i), found.col(i),
+                                    patches_of(free, body.around_free, difference.col(i)),
+                                    loaded_nodes(*body.loaded, within.col(i), found.col(i)));
   return error;
 }
 
@@ -147,18 +146,19 @@ struct Scalar {
   MatrixXd value;
 };
 
-std::vector<Scalar> scalars(const Fields& body, const States& states, const MatrixXd& U,
-                            const MatrixXd& stress) {
-  std::vector<Scalar> all = {{"von_mises [Pa]", von_mises(stress)}, {"rankine [Pa]", rankine(stress)}};
+std::vector<Scalar> scalars(const FieldBody& body, const States& states, const MatrixXd& U,
+                            const Stresses& of) {
+  std::vector<Scalar> all = {{"von_mises [Pa]", von_mises(of.at_nodes)},
+                             {"rankine [Pa]", rankine(of.at_nodes)}};
   const MatrixXd found = all[0].value;
   if (states.front().reference)
     all.push_back({"error_of_von_mises [Pa]", estimated_errors(body, states, found)});
-  if (const auto& touched = states.front().touched)
-    all.push_back({"error_of_von_mises_by_mesh [Pa]", estimated_mesh_errors(body, *touched, U, found)});
-  if (states.front().q_error.size() > 0)
-    all.push_back(
-        {"error_of_von_mises_by_steps [Pa]", von_mises(body.stresses(body.displacements(
-                                                 states, [](const FieldState& s) { return s.q_error; })))});
+  if (body.loaded)
+    all.push_back({"error_of_von_mises_by_mesh [Pa]", estimated_mesh_errors(body, U, of.difference, found)});
+  if (states.front().q_error.size() > 0) {
+    const MatrixXd U_error = displacements(body, states, [](const FieldState& s) { return s.q_error; });
+    all.push_back({"error_of_von_mises_by_steps [Pa]", von_mises(stresses(body, U_error).at_nodes)});
+  }
   return all;
 }
 
@@ -169,24 +169,38 @@ int fields_together(int n_nodes) {
   return std::clamp(kNodes / std::max(1, n_nodes), 1, kMost);
 }
 
-void write_fields(const std::vector<std::string>& paths, const std::string& body_file,
-                  const io::BodySource& source, const States& states, const FiniteElements& finite_elements) {
+FieldBody field_body(const std::string& body_file, const io::BodySource& source,
+                     const std::optional<std::vector<int>>& touched, const FiniteElements& finite_elements) {
+  FieldBody body{body_file, source, finite_elements,
+                 finite_elements.nodal_stresses(source, touched.value_or(std::vector<int>{}))};
+  if (!touched) return body;
+  const bool averaged = takes_means(body);
+  const auto patches = [&](const std::vector<int>& nodes) {
+    return averaged ? SurfacePatches{} : finite_elements.surface_patches(source, nodes);
+  };
+  body.around_free = patches(body.nodal_stresses.free);
+  const std::vector<int>& loaded = averaged ? *touched : source.recovery.loaded;
+  body.loaded = LoadedSurface{loaded, patches(loaded),
+                              finite_elements.difference_within_surface(source, *touched, loaded)};
+  return body;
+}
+
+void write_fields(const std::vector<std::string>& paths, const FieldBody& body, const States& states) {
   require(paths.size() == states.size() && !states.empty(), "fields need a path for each state");
-  const Fields body{body_file, source, finite_elements};
-  MatrixXd U = body.displacements(states, [](const FieldState& s) { return s.q; });
+  MatrixXd U = displacements(body, states, [](const FieldState& s) { return s.q; });
   for (std::size_t i = 0; i < states.size(); ++i) add_static(states[i].u_static, i, U);
-  MatrixXd stress = body.stresses(U);
-  subtract_relaxed(body, states, stress);
-  const std::vector<Scalar> all = scalars(body, states, U, stress);
-  mesh::Mesh placed = source.mesh;
-  const int n = source.mesh.n_nodes();
+  Stresses of = stresses(body, U);
+  subtract_relaxed(body, states, of.at_nodes);
+  const std::vector<Scalar> all = scalars(body, states, U, of);
+  mesh::Mesh placed = body.source.mesh;
+  const int n = placed.n_nodes();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const FieldState& state = states[i];
     const auto column = static_cast<Index>(i);
-    placed.X = (state.R_WB * source.mesh.X).colwise() + state.r_WB;
+    placed.X = (state.R_WB * body.source.mesh.X).colwise() + state.r_WB;
     std::vector<io::NodeField> fields = {{"displacement [m]", state.R_WB * U.col(column).reshaped(3, n)},
-                                         {"stress [Pa]", stress.col(column).reshaped(6, n)}};
-    for (const Scalar& of : all) fields.push_back({of.name, of.value.col(column).transpose()});
+                                         {"stress [Pa]", of.at_nodes.col(column).reshaped(6, n)}};
+    for (const Scalar& scalar : all) fields.push_back({scalar.name, scalar.value.col(column).transpose()});
     fields.insert(fields.end(), state.more.begin(), state.more.end());
     io::write_vtu(paths[i], placed, fields);
   }

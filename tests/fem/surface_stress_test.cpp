@@ -116,12 +116,12 @@ TEST(SurfaceStress, several_displacements_have_the_stresses_of_each) {
   const Eigen::MatrixXd U = Eigen::MatrixXd::Random(3 * mesh.n_nodes(), 3);
   for (RecoveryMethod method : {RecoveryMethod::average, RecoveryMethod::surface}) {
     const fem::StressedBody body{mesh, test::kSteelBody, Element::incompatible, {method, {}}};
-    const Eigen::MatrixXd all = fem::nodal_stresses(body, U);
+    const Eigen::MatrixXd all = fem::NodalStresses(body)(U);
     for (int i = 0; i < 3; ++i)
       EXPECT_LT((all.col(i) - fem::nodal_stress(body, U.col(i)).reshaped()).norm(),
                 kRoundoff * all.col(i).norm());
   }
-  EXPECT_THROW(fem::nodal_stresses({mesh, test::kSteelBody, Element::incompatible}, U.topRows(3)), Error);
+  EXPECT_THROW(fem::NodalStresses({mesh, test::kSteelBody, Element::incompatible})(U.topRows(3)), Error);
 }
 
 TEST(SurfaceStress, has_no_traction_and_none_at_all_at_corners) {

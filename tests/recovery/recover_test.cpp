@@ -40,9 +40,7 @@ FiniteElements finite_elements() {
                 [factor](const auto& loaded, const auto& f) { return factor->displacement(loaded, f); },
                 [factor](const auto& loaded, const auto& nodes) { return factor->stress(loaded, nodes); }};
           },
-          [](const io::BodySource& source, const Eigen::MatrixXd& U) {
-            return fem::nodal_stresses(reduction::stressed_body(source), U);
-          },
+          {},
           {},
           [](const io::BodySource& source, const auto& loaded, const auto& nodes) {
             fem::StressedBody body = reduction::stressed_body(source);
@@ -57,7 +55,6 @@ FiniteElements finite_elements() {
           [](const io::BodySource& source, const auto& nodes) {
             return fem::stress_operator(reduction::stressed_body(source), nodes);
           },
-          {},
           [](const io::BodySource& source, const auto& nodes) {
             return SurfacePatches{mesh::surface_patches(source.mesh, nodes),
                                   mesh::cell_orders(source.mesh, nodes)};

@@ -16,6 +16,14 @@
 
 namespace elastogear::fem {
 
+/// The cells over which each node averages: its region, and the number of that region's cells at the node.
+struct Averaging {
+  std::vector<int> region_of_cell;
+  std::vector<int> region, count;  ///< of each node
+
+  bool counts(int cell, int node) const { return region_of_cell[cell] == region[node]; }
+};
+
 /// S at the given nodes, 6 n_e x 3 n_nodes, Pa/m: rows 6 i .. 6 i + 5 are xx yy zz xy yz xz at nodes[i].
 /// Throws Error when a node belongs to no cell. docs/theory, Eq. (4.1).
 model::SparseRows stress_operator(const StressedBody& body, const std::vector<int>& nodes);
@@ -32,10 +40,28 @@ model::SparseRows difference_within_surface(StressedBody body, const std::vector
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 
-/// Stress at all nodes for k displacements U (3 n_nodes x k, m, node-major): 6 n_nodes x k, Pa, without
-/// forming S. Nodes outside all cells get 0. What the mesh costs is paid once for all k.
-Eigen::MatrixXd nodal_stresses(const StressedBody& body, const Eigen::MatrixXd& U);
-/// The same for one displacement u (3 n_nodes): 6 x n_nodes, Pa.
+/// Stresses at all nodes of a body, 6 n_nodes x k, Pa, of k displacements U (3 n_nodes x k, m, node-major),
+/// without forming S at all of them. Nodes outside all cells get 0.
+class NodalStresses {
+ public:
+  /// The body's mesh and regions outlive the object.
+  explicit NodalStresses(const StressedBody& body);
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& U) const;
+  Eigen::MatrixXd means(const Eigen::MatrixXd& U) const;
+  /// Nodes that take the stress of a free surface in place of the mean, ascending: none where the body takes
+  /// means.
+  const std::vector<int>& free() const { return free_; }
+  /// S at these nodes, 6 n_free x 3 n_nodes, Pa/m.
+  const model::SparseRows& of_free() const { return S_free_; }
+
+ private:
+  StressedBody body_;
+  Averaging average_;
+  std::vector<int> free_;
+  model::SparseRows S_free_;
+};
+
+/// Stress at all nodes of one displacement u (3 n_nodes): 6 x n_nodes, Pa.
 Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u);
 
 }  // namespace elastogear::fem

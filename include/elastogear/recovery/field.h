@@ -29,20 +29,38 @@ struct FieldState {
   Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
   std::vector<io::NodeField> more = {};
   std::optional<FieldReference> reference = {};  ///< none: no error of the reduction is estimated
-  std::optional<std::vector<int>> touched =
-      {};  ///< mesh numbers of the contact surface's nodes; none: no error of the mesh is estimated
   Eigen::VectorXd q_error = {};  ///< of q by the steps in time; empty: no error in time is estimated
 };
 
-/// Fields that are found together: what a mesh costs is paid once for all of them, 200 MB of them are in
-/// memory.
+/// Fields that are found together: their stresses and those of their estimates, 300 MB, are in memory.
 int fields_together(int n_nodes);
+
+/// The loaded nodes of a body with what the estimated error by the mesh needs of them.
+struct LoadedSurface {
+  std::vector<int> node;         ///< mesh numbers
+  SurfacePatches patches;        ///< around each; of means none
+  model::SparseRows difference;  ///< Eq. (1.16a), 6 n x 3 n_nodes, Pa/m
+};
+
+/// A body as its fields take it. What the mesh costs is paid once.
+struct FieldBody {
+  const std::string& file;  ///< that gives Phi
+  const io::BodySource& source;
+  FiniteElements finite_elements;
+  NodalStresses nodal_stresses;
+  SurfacePatches around_free = {};           ///< of nodal_stresses.free; of means none
+  std::optional<LoadedSurface> loaded = {};  ///< none: no error of the mesh is estimated
+};
+
+/// `source` is read from `body_file`, and both outlive the result. touched: mesh numbers of the nodes of the
+/// contact surface; none: no error of the mesh is estimated.
+FieldBody field_body(const std::string& body_file, const io::BodySource& source,
+                     const std::optional<std::vector<int>>& touched, const FiniteElements& finite_elements);
 
 /// Writes a body at several times, one file each: undeformed in its placement (world frame) with displacement
 /// (world frame), stress (body frame), von_mises, its estimated errors, rankine and the fields in `more`.
-/// `body_file` gives Phi, and `source` is read from it. States have the same estimates.
-void write_fields(const std::vector<std::string>& paths, const std::string& body_file,
-                  const io::BodySource& source, const std::vector<FieldState>& states,
-                  const FiniteElements& finite_elements);
+/// States have the same estimates.
+void write_fields(const std::vector<std::string>& paths, const FieldBody& body,
+                  const std::vector<FieldState>& states);
 
 }  // namespace elastogear::recovery

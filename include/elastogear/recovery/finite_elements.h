@@ -24,12 +24,20 @@ struct SurfacePatches {
   std::vector<int> order;              ///< n, degree of the displacements in the cells at each node
 };
 
+/// Stresses of a body, Pa, of k displacements U (3 n_nodes x k, m, node-major), by both recoveries.
+struct NodalStresses {
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& U)> means;  ///< at all nodes, 6 n_nodes x k
+  std::vector<int> free;      ///< n_free, nodes on free surfaces that are not loaded, ascending
+  model::SparseRows of_free;  ///< the stress operator of the free surfaces there, 6 n_free x 3 n_nodes, Pa/m
+};
+
 struct FiniteElements {
   /// Factorises K of a body. The source outlives the response. floating: nothing holds the body, whose loads
   /// are balanced by its inertia.
   std::function<UnreducedResponse(const io::BodySource& source, bool floating)> unreduced_response;
-  /// Stress at all nodes, 6 n_nodes x k, Pa, of k displacements U (3 n_nodes x k, m, node-major).
-  std::function<Eigen::MatrixXd(const io::BodySource& source, const Eigen::MatrixXd& U)> nodal_stresses;
+  /// Finds what the mesh costs once. The source outlives the stresses. loaded: nodes on which forces act,
+  /// which bodies whose stresses are means do not know.
+  std::function<NodalStresses(const io::BodySource& source, const std::vector<int>& loaded)> nodal_stresses;
   /// Index into the source's regions of the region whose stress each node has; -1: none. Asked of
   /// viscoelastic bodies.
   std::function<std::vector<int>(const io::BodySource& source)> node_regions = {};
@@ -45,11 +53,6 @@ struct FiniteElements {
   /// Rows of the stress operator at nodes, as the body takes its stresses: 6 n x 3 n_nodes, Pa/m.
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& nodes)>
       stress_operator = {};
-  /// The difference of both recoveries at all nodes for k displacements U: 6 n_nodes x k, Pa; zero at
-  /// `loaded` nodes and where no free surface is.
-  std::function<Eigen::MatrixXd(const io::BodySource& source, const std::vector<int>& loaded,
-                                const Eigen::MatrixXd& U)>
-      stress_difference = {};
   std::function<SurfacePatches(const io::BodySource& source, const std::vector<int>& nodes)> surface_patches =
       {};
 };

@@ -188,6 +188,8 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
     const model::Surface& surface = elastic.surface;
     const bool tells_mesh = settings.error_estimate && tells_mesh_error(recovered, elastic);
     const recovery::BodyContact contact = recovery::read_body_contact(run.result, body.name, surface);
+    const recovery::FieldBody of_body = field_body(
+        body.file, source, tells_mesh ? std::optional(surface.node) : std::nullopt, drive::finite_elements());
     const std::string base = settings.fields + "_" + body.name;
     const int n_nodes = source.mesh.n_nodes(), together = recovery::fields_together(n_nodes);
     for (int first = 0; first < std::ssize(steps); first += together) {
@@ -199,14 +201,13 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
       for (std::size_t i = 0; i < now.size(); ++i) {
         recovery::FieldState& state = states[i];
         state.more = contact_fields(contact, now[i], state.R_WB, surface, n_nodes);
-        if (tells_mesh) state.touched = surface.node;
         if (settings.error_estimate && body.history.q_error.size() > 0)
           state.q_error = body.history.q_error.col(now[i]);
         paths.push_back(field_path(base, static_cast<std::size_t>(first) + i, steps.size()));
         series.push_back({run.time[now[i]], std::filesystem::path(paths.back()).filename().string(),
                           static_cast<int>(&recovered - run.bodies.data()), body.name});
       }
-      recovery::write_fields(paths, body.file, source, states, drive::finite_elements());
+      recovery::write_fields(paths, of_body, states);
       for (const std::string& path : paths) print_item("written", path);
     }
   }
