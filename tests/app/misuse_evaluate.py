@@ -8,9 +8,9 @@ from misuse_files import attribute
 CASES = "{evaluate} -result gear_cases"
 
 EVALUATE = [
-    Case("evaluation without a drive", r"option -drive is missing", "{elastogear} evaluate -result gears_result.h5"),
+    Case("evaluation without a drive", r"needs a drive file", "{elastogear} evaluate -result gears_result.h5"),
     Case("evaluation of a result in place of the drive file", r"gears_result.h5, line 1: is no valid YAML", "{elastogear} evaluate gears_result.h5"),
-    Case("evaluation of a system that is no drive", r"option -drive is missing", "{elastogear} evaluate two.yaml -result run.h5"),
+    Case("evaluation of a system that is no drive", r"needs a drive file", "{elastogear} evaluate two.yaml -result run.h5"),
     Case("evaluation before the sweep", r"planets_result.h5: there is no such result; run .*simulate.* or name it by -result", "{elastogear} evaluate planets.yaml"),
     Case("evaluation of another kind of drive", r"gears_result.h5: is not that .*drive: cylindrical there, worm here", "{elastogear} evaluate worm.yaml -result gears_result.h5"),
     Case("evaluation of a body", r"gears_pinion.h5: has the format 'elastogear body'", "{evaluate} -result gears_pinion.h5"),

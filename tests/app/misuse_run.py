@@ -6,7 +6,7 @@ KILL_IN_SWEEP = {"": "kill", "CALL": "renamed", "FILE": "unit_"}
 
 RUN = [
     Case("run without a drive", r"needs a drive file: elastogear run drive.yaml", "{elastogear} run"),
-    Case("run of a system", r"needs a drive file", "{elastogear} run two.yaml"),
+    Case("run of a system", r"needs a drive file: two.yaml has no line 'drive: cylindrical'", "{elastogear} run two.yaml"),
     Case("run of a result", r"gears_result.h5, line 1: is no valid YAML", "{elastogear} run gears_result.h5"),
     Case("run of a mesh without the verb", r"unknown verb 'brick.inp'", "{elastogear} brick.inp"),
     Case("run of a missing file without the verb", r"nosuch.yaml: there is no such file", "{elastogear} nosuch.yaml"),

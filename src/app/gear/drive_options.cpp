@@ -190,6 +190,15 @@ drive::Start drive_start(const Options& options) {
 
 bool is_drive(const Options& options) { return options.given("drive"); }
 
+void require_drive(const Options& options, const std::string& verb) {
+  if (is_drive(options)) return;
+  const std::vector<std::string>& files = options.files();
+  fail("needs a drive file: ",
+       files.empty() ? "elastogear " + verb + " drive.yaml"
+                     : join(files) + " has no line 'drive: cylindrical' or 'drive: worm'",
+       " (docs/drives.md)");
+}
+
 Options with_gears(Options options) {
   if (!is_drive(options)) {
     for (const OptionSpec& spec : drive_table())

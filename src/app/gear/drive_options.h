@@ -29,6 +29,8 @@ void require_torque_of_side(const Options& options, const std::string& name, dou
 
 /// Is this the run of a drive file?
 bool is_drive(const Options& options);
+/// Throws Error where the options are not those of a drive file, which this verb needs.
+void require_drive(const Options& options, const std::string& verb);
 
 /// Options with the names of the drive's gears, to be checked by reject_unknown.
 Options with_gears(Options options);

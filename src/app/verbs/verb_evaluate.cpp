@@ -294,9 +294,7 @@ std::vector<std::string> gears_and_bodies(const Options& options) {
 }
 
 void run_evaluate(const Options& given, const std::vector<std::string>&) {
-  require(is_drive(given),
-          "option -drive is missing: evaluate reads a drive file, with 'drive: cylindrical' or "
-          "'drive: worm'");
+  require_drive(given, "evaluate");
   const Options options = with_evaluation(with_gears(given));
   options.reject_unknown({{"body", gears_and_bodies(options)}});
   Options at_zero = options;

@@ -136,7 +136,7 @@ void protect_inputs(const Options& options, const Drive& drive, const LifeSettin
 }
 
 void run_life(const Options& given, const std::vector<std::string>&) {
-  require(is_drive(given), "needs a drive file: elastogear life drive.yaml (docs/drives.md)");
+  require_drive(given, "life");
   const Options options = with_gears(given);
   const Drive drive = read_drive(options);
   std::vector<std::string> names;

@@ -165,7 +165,7 @@ void make_report(const Options& given, const RunOnMesh& of) {
 }
 
 void run_all(const Options& given, const std::vector<std::string>&) {
-  require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
+  require_drive(given, "run");
   RunSettings settings;
   read_rows(given, kRunRows, settings);
   with_gears(given).reject_unknown();

@@ -210,7 +210,7 @@ void protect(const Options& options, const Drive& drive, const DriveOnMeshes& me
 
 void run_wear(const Options& given, const std::vector<std::string>&) {
   const OneBlasThread one_thread;
-  require(is_drive(given), "needs a drive file: elastogear wear drive.yaml (docs/drives.md)");
+  require_drive(given, "wear");
   const Options options = with_one_case(with_gears(given));
   const Drive drive = read_drive(options);
   std::vector<std::string> names;
