@@ -16,25 +16,16 @@
 namespace elastogear::mesh {
 namespace {
 
-// The command that converts bulk data of Nastran into a mesh; empty for files of other extensions. Gmsh takes
-// bulk data by its extension, which .dat is not.
-std::string way_from_bulk_data(const std::string& path, const std::string& extension) {
-  if (extension != ".bdf" && extension != ".nas" && extension != ".dat") return "";
-  const auto with = [&](const char* other) {
-    return std::filesystem::path(path).replace_extension(other).string();
-  };
-  const std::string rename = extension == ".dat" ? "cp " + path + " " + with(".bdf") + " && " : "",
-                    deck = extension == ".dat" ? with(".bdf") : path;
-  return "; bulk data of Nastran becomes one, with its properties and shells as sets, without materials, "
-         "restraints and local coordinate systems, by \"" +
-         rename + "gmsh " + deck + " -save -o " + with(".inp") + "\"";
-}
-
-std::string extension(const std::string& path) {
+std::string extension_of(const std::string& path) {
   std::string text = std::filesystem::path(path).extension().string();
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string mesh_extension(const std::string& path) {
+  const std::string text = extension_of(path);
   require(text == ".msh" || text == ".inp", path, ": unknown mesh format '", text,
-          "', allowed are .msh (Gmsh 4.1) and .inp (Abaqus/CalculiX)", way_from_bulk_data(path, text));
+          "', allowed are .msh (Gmsh 4.1) and .inp (Abaqus/CalculiX)", way_from_bulk_data(path));
   return text;
 }
 
@@ -48,10 +39,24 @@ void require_names(const std::string& path, const Sets& sets) {
 
 }  // namespace
 
+// Gmsh takes bulk data by its extension, which .dat is not.
+std::string way_from_bulk_data(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension != ".bdf" && extension != ".nas" && extension != ".dat") return "";
+  const auto with = [&](const char* other) {
+    return std::filesystem::path(path).replace_extension(other).string();
+  };
+  const std::string rename = extension == ".dat" ? "cp " + path + " " + with(".bdf") + " && " : "",
+                    deck = extension == ".dat" ? with(".bdf") : path;
+  return "; bulk data of Nastran becomes one, with its properties and shells as sets, without materials, "
+         "restraints and local coordinate systems, by \"" +
+         rename + "gmsh " + deck + " -save -o " + with(".inp") + "\"";
+}
+
 Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, const std::string& instance) {
   require(std::isfinite(unit_in_m) && unit_in_m > 0, path, ": unit of length is ", unit_in_m,
           " m, must be positive");
-  const bool msh = extension(path) == ".msh";
+  const bool msh = mesh_extension(path) == ".msh";
   require(!msh || instance.empty(), path, ": a .msh has no instances; give no instance");
   Mesh mesh = msh ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report, instance);
   require_names(path, mesh.node_sets);
@@ -61,7 +66,7 @@ Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, co
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  if (extension(path) == ".msh") return write_msh(path, mesh);
+  if (mesh_extension(path) == ".msh") return write_msh(path, mesh);
   write_inp(path, mesh);
 }
 

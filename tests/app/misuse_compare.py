@@ -40,6 +40,8 @@ COMPARE = [
     Case("info on an endless device", r"zero.inp", INFO + " zero.inp", before=linked("/dev/zero", "zero.inp")),
     Case("info on a link to itself", r"loop.h5", INFO + " loop.h5", before=linked("loop.h5", "loop.h5")),
     Case("info on a file of another program", r"foreign.h5: /: has no attribute format", INFO + " foreign.h5", before=foreign("foreign.h5")),
+    Case("info on bulk data of Nastran", r"deck.bdf: unknown format; .*bulk data of Nastran becomes one.*gmsh deck.bdf -save -o deck.inp",
+         INFO + " deck.bdf", before=written("deck.bdf", "GRID,1,,0.,0.,0.\n")),
     Case("info on a drive file", r"gears.yaml: unknown format; known are .msh, .inp", INFO + " gears.yaml"),
     Case("info on a text with the name of a result", r"text.h5: unknown format", INFO + " text.h5", before=written("text.h5", "a result\n")),
     Case("info on a mesh with the name of a result", r"renamed.h5: unknown format", INFO + " renamed.h5", before=copied("wheel.msh", "renamed.h5")),

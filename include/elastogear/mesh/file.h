@@ -17,6 +17,10 @@ Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report
 /// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
+/// What a message on a file of unknown format says of the command that converts bulk data of Nastran into a
+/// mesh; empty for files whose extension is not .bdf, .nas or .dat.
+std::string way_from_bulk_data(const std::string& path);
+
 /// Does a file begin as those of write_mesh() do? Error when it cannot be read.
 bool is_written_mesh(const std::string& path);
 

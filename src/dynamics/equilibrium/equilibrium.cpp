@@ -250,8 +250,13 @@ std::string free_coordinates(const Equilibrium& at) {
   const std::string free = free_coordinates(at);
   require(free.empty(), "no equilibrium at load factor ", at.factor,
           ": nothing holds (neither contact nor a spring) ", free);
+  const std::vector<PairSetup>& pairs = at.problem.system.pairs();
+  const bool has_penalty = std::any_of(pairs.begin(), pairs.end(), [](const PairSetup& pair) {
+    return pair.settings.law == contact::ContactLaw::penalty;
+  });
   fail("no equilibrium found at load factor ", at.factor, ": ", trouble_of(at),
-       ". Try more load steps (-static_steps), a smaller -contact_stiffness, or -analysis relax");
+       ". Try more load steps (-static_steps)", has_penalty ? ", a smaller -contact_stiffness," : "",
+       " or -analysis relax");
 }
 
 // n_seeking: evaluations in which contact need not be more exact than the imbalance asks.

@@ -261,7 +261,8 @@ std::string describe(const std::string& path) {
     describe_table(out, path);
   } else {
     fail(path,
-         ": unknown format; known are .msh, .inp, .vtu, .vtp, .pvd, .csv and the HDF5 files of this program");
+         ": unknown format; known are .msh, .inp, .vtu, .vtp, .pvd, .csv and the HDF5 files of this program",
+         mesh::way_from_bulk_data(path));
   }
   return out.str();
 }
