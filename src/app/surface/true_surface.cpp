@@ -49,9 +49,9 @@ Teeth read_teeth(const std::vector<std::string>& files) {
   }
 }
 
-// file: where the gear data come from.
+// file: where the gear data come from. Stations take deviations as they are, other contact by polynomials.
 contact::TrueSurface flanks_of(const Teeth& teeth, const std::string& file, const std::string& body,
-                               const model::Surface& surface) {
+                               const model::Surface& surface, bool at_stations) {
   const drive::FlankSurface found = [&] {
     try {
       return drive::flank_surface(teeth, surface, !is_silenced());
@@ -64,8 +64,9 @@ contact::TrueSurface flanks_of(const Teeth& teeth, const std::string& file, cons
   print_detail("flanks of " + body, std::to_string(found.n_faces) + " faces, nodes within " +
                                         with_unit(found.farthest.distance, "m") + " of " + file);
   if (teeth.deviations)
-    print_item("modified flanks of " + body,
-               "followed within " + with_unit(found.error * 1e6, "um") + " by polynomials over the faces");
+    (at_stations ? print_detail : print_item)(
+        "modified flanks of " + body,
+        "followed within " + with_unit(found.error * 1e6, "um") + " by polynomials over the faces");
   return found.surface;
 }
 
@@ -114,11 +115,12 @@ std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options,
   TrueSurfaceFiles files;
   read_rows(options, kTrueSurfaceRows, files, body);
   auto known = std::make_shared<contact::TrueSurface>();
+  const bool at_stations = options.text("contact_points") == "stations";
   if (options.text("contact_surface") == "exact") {
     if (!files.flanks.empty())
-      *known = flanks_of(read_teeth(files.flanks), join(files.flanks), body, surface);
+      *known = flanks_of(read_teeth(files.flanks), join(files.flanks), body, surface, at_stations);
     else if (member)
-      *known = flanks_of(drive::teeth_of(*member), join(options.files()), body, surface);
+      *known = flanks_of(drive::teeth_of(*member), join(options.files()), body, surface, at_stations);
   }
   if (!files.deviation.empty()) add_deviations(files.deviation, body, surface, *known);
   return known;
