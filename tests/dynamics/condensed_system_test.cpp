@@ -45,6 +45,7 @@ Case many_contacts(double stiff, double weak, double reach = 10) {
       if (leads) c.A.k.insert(i, j) = stiff;
       if (coupled) c.A.k.insert(i, j) = stiff * weak * VectorXd::Random(1)[0];
     }
+  c.A.k.makeCompressed();
   for (Index b = 0; b < kBodies; ++b) {
     const Index n_s = b == 0 ? kJoint : 0;
     BodyTerms terms;
