@@ -197,12 +197,15 @@ Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd
   return with_rows(rows, [&](const auto& r) -> Eigen::VectorXd { return r.transpose() * x; });
 }
 
+// Surfaces of bodies without elastic coordinates may lack the rows of Phi.
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {
+  if (q.size() == 0) return Eigen::Vector3d::Zero();
   if (const auto* sparse = std::get_if<SparseRows>(&Phi)) return sparse->middleRows(3 * node, 3) * q;
   return three_products(node_rows(Phi, node), q.data(), q.size());
 }
 
 void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
+  if (h.size() == 0) return;
   if (const auto* sparse = std::get_if<SparseRows>(&Phi)) {
     h += sparse->middleRows(3 * node, 3).transpose() * f;
     return;

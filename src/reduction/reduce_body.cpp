@@ -74,8 +74,9 @@ void validate_ritz(const ReductionOptions& options) {
 
 void validate_mass(const ReductionOptions& options) {
   if (options.element_mass == model::ElementMass::compatible) return;
-  require(!options.imported, "element_mass condensed is of the mesh's own cells: the mass comes from ",
-          options.imported->mass, ", leave one of the options element_mass and mass out");
+  if (options.imported)
+    fail("element_mass condensed is of the mesh's own cells: the mass comes from ", options.imported->mass,
+         ", leave one of the options element_mass and mass out");
   require(
       options.element == model::Element::incompatible,
       "element_mass condensed belongs to incompatible modes: take -element incompatible, or -element_mass "
