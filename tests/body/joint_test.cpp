@@ -7,25 +7,23 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "joints.h"
 
 namespace elastogear::joint_test {
 using body::Joint;
 using body::JointType;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using test::joint_of;
 
 namespace {
 
 constexpr double kRoundoff = 1e-13, kStep = 1e-5, kDifference = 1e-9;
 
-Joint joint_of(JointType type) {
-  return {type, {1, 2, -2}, {1, 2, 3}, rotation_matrix({0.3, -0.2, 0.9}), {0.5, -0.4, 0.2}};
-}
-
 struct Moving : testing::TestWithParam<JointType> {};
-INSTANTIATE_TEST_SUITE_P(Joints, Moving,
-                         testing::Values(JointType::revolute, JointType::prismatic, JointType::cylindrical,
-                                         JointType::spherical, JointType::free));
+INSTANTIATE_TEST_SUITE_P(Joints, Moving, testing::ValuesIn(test::moving_joints()), [](const auto& info) {
+  return body::joint_names()[static_cast<std::size_t>(info.param)];
+});
 
 // v, w and a from differences of the placement.
 TEST_P(Moving, velocity_and_acceleration_are_the_rates_of_the_placement) {
