@@ -63,6 +63,12 @@ TEST_P(Moving, twists_of_the_coordinates_are_the_changes_of_the_placement) {
   }
 }
 
+TEST_P(Moving, angles_are_the_coordinates_that_turn_it) {
+  const auto H = body::motion_subspace(joint_of(GetParam()));
+  for (Eigen::Index i = 0; i < H.cols(); ++i)
+    EXPECT_EQ(body::is_angle(GetParam(), i), !H.col(i).tail<3>().isZero(0)) << i;
+}
+
 TEST(Revolute, leaves_the_points_of_its_axis_where_they_are) {
   const Joint joint = joint_of(JointType::revolute);
   const auto at = [&](double angle, const Vector3d& X) -> Vector3d {
