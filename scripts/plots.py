@@ -74,7 +74,7 @@ def plot_speed(result, body, folder):
     speed = result["bodies"][body]["rigid_velocity"]
     if speed.shape[1] == 0:
         return
-    unit = results.speed_unit(result["bodies"][body])
+    units = sorted({results.speed_unit(result["bodies"][body], i) for i in range(speed.shape[1])})
     figure, axes = plt.subplots(figsize=(7, 4))
     t = time_axis(axes, result["time"][:])
     for i in range(speed.shape[1]):
@@ -82,7 +82,7 @@ def plot_speed(result, body, folder):
     if speed.shape[1] > 1:
         axes.legend(frameon=False)
     axes.axhline(0, color="black", linewidth=0.6)
-    axes.set(ylabel=f"speed in {unit}", title=f"Speed of the {body}")
+    axes.set(ylabel=f"speed in {' or '.join(units)}", title=f"Speed of the {body}")
     save(figure, folder, "speed_" + body)
 
 

@@ -85,9 +85,12 @@ def standstill(file, body="worm"):
             "at one time. A mesh that is too coarse slows the free motion or stops it: use size small or a finer one")
 
 
-def speed_unit(body):
-    """Unit of the joint velocities of a result file's body group."""
-    return "rad/s" if text(body.attrs.get("joint", "revolute")) == "revolute" else "m/s"
+ANGLES = {"revolute": (0,), "cylindrical": (0,), "spherical": (0, 1, 2), "free": (3, 4, 5)}  # coordinates of joints in rad
+
+
+def speed_unit(body, i=0):
+    """Unit of the velocity of joint coordinate i of a result file's body group."""
+    return "rad/s" if i in ANGLES.get(text(body.attrs.get("joint", "revolute")), ()) else "m/s"
 
 
 class NodeStress:

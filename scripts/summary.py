@@ -53,10 +53,10 @@ def motion_lines(result):
     lines = section("Motion")
     for body, state in result["bodies"].items():
         speed = state["rigid_velocity"]
-        unit = results.speed_unit(state)
         for i in range(speed.shape[1]):
+            unit = results.speed_unit(state, i)
             lines.append(f"{body}: speed {speed[0, i]:.5g} {unit} at the start, {speed[-1, i]:.5g} {unit} at the end")
-        if unit == "rad/s" and speed.shape[1] == 1 and results.standstill(result, body):
+        if speed.shape[1] == 1 and results.speed_unit(state) == "rad/s" and results.standstill(result, body):
             lines.append(f"warning: {results.standstill(result, body)}")
     return lines
 

@@ -49,6 +49,11 @@ bool has_translation_axis(JointType type) {
 }
 bool has_rotation_vector(JointType type) { return type == JointType::spherical || type == JointType::free; }
 
+bool is_angle(JointType type, Eigen::Index i) {
+  if (has_rotation_vector(type)) return i >= coordinate_count(type) - 3;
+  return has_rotation_axis(type) && i == 0;
+}
+
 Placement placement(const Joint& joint, const Eigen::VectorXd& s) {
   if (joint.type == JointType::free) return {s.head<3>(), joint.R_WB0 * cayley(s.tail<3>())};
   if (joint.type == JointType::fixed) return {joint.r_WB0, joint.R_WB0};

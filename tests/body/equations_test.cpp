@@ -7,13 +7,13 @@
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/deformed_inertia.h"
 #include "elastogear/body/tangent.h"
+#include "joints.h"
 #include "random_body.h"
 
 namespace elastogear::equations_test {
 using body::Equations;
 using body::Force;
 using body::InertiaLevel;
-using body::Joint;
 using body::JointType;
 using body::Motion;
 using Eigen::Vector3d;
@@ -30,11 +30,9 @@ struct Case {
   InertiaLevel level;
 };
 
-Joint joint_of(JointType type) {
-  return {type, {1, 2, -2}, {0.3, 0.2, -0.1}, rotation_matrix({0.3, -0.2, 0.9}), {0.5, -0.4, 0.2}};
+Equations equations(const Case& c) {
+  return make_equations(test::random_body(), test::joint_of(c.type), c.level);
 }
-
-Equations equations(const Case& c) { return make_equations(test::random_body(), joint_of(c.type), c.level); }
 
 Motion some_motion(int n_s) {
   std::srand(2);
@@ -167,9 +165,7 @@ TEST_P(EquationsOfMotion, tangent_is_the_derivative_of_the_forces) {
 std::vector<Case> cases(const std::vector<InertiaLevel>& levels) {
   std::vector<Case> all;
   for (InertiaLevel level : levels)
-    for (JointType type : {JointType::revolute, JointType::prismatic, JointType::cylindrical,
-                           JointType::spherical, JointType::free})
-      all.push_back({type, level});
+    for (JointType type : test::moving_joints()) all.push_back({type, level});
   return all;
 }
 

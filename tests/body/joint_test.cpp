@@ -7,25 +7,23 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "joints.h"
 
 namespace elastogear::joint_test {
 using body::Joint;
 using body::JointType;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using test::joint_of;
 
 namespace {
 
 constexpr double kRoundoff = 1e-13, kStep = 1e-5, kDifference = 1e-9;
 
-Joint joint_of(JointType type) {
-  return {type, {1, 2, -2}, {1, 2, 3}, rotation_matrix({0.3, -0.2, 0.9}), {0.5, -0.4, 0.2}};
-}
-
 struct Moving : testing::TestWithParam<JointType> {};
-INSTANTIATE_TEST_SUITE_P(Joints, Moving,
-                         testing::Values(JointType::revolute, JointType::prismatic, JointType::cylindrical,
-                                         JointType::spherical, JointType::free));
+INSTANTIATE_TEST_SUITE_P(Joints, Moving, testing::ValuesIn(test::moving_joints()), [](const auto& info) {
+  return body::joint_names()[static_cast<std::size_t>(info.param)];
+});
 
 // v, w and a from differences of the placement.
 TEST_P(Moving, velocity_and_acceleration_are_the_rates_of_the_placement) {
@@ -63,6 +61,12 @@ TEST_P(Moving, twists_of_the_coordinates_are_the_changes_of_the_placement) {
     EXPECT_LT((d.r.col(i) - r).norm(), kDifference);
     EXPECT_LT((skew(d.theta.col(i)) - theta).norm(), kDifference);
   }
+}
+
+TEST_P(Moving, angles_are_the_coordinates_that_turn_it) {
+  const auto H = body::motion_subspace(joint_of(GetParam()));
+  for (Eigen::Index i = 0; i < H.cols(); ++i)
+    EXPECT_EQ(body::is_angle(GetParam(), i), !H.col(i).tail<3>().isZero(0)) << i;
 }
 
 TEST(Revolute, leaves_the_points_of_its_axis_where_they_are) {

@@ -160,6 +160,15 @@ class Scripts(unittest.TestCase):
                       "(0.5 % of the initial energy)"):
             self.assertIn(words, run.stdout)
 
+    def test_speeds_of_a_cylindrical_joint_have_both_units(self):
+        with h5py.File(self.path("result.h5"), "r+") as file:
+            del file["bodies/wheel/rigid_velocity"]
+            file["bodies/wheel/rigid_velocity"] = np.array([[20, 0.5]] * 5)
+            file["bodies/wheel"].attrs["joint"] = "cylindrical"
+        run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
+        self.assertIn("wheel: speed 20 rad/s at the start, 20 rad/s at the end", run.stdout)
+        self.assertIn("wheel: speed 0.5 m/s at the start, 0.5 m/s at the end", run.stdout)
+
     def summary_with_error(self, share):
         """Of a stress file with an estimated error, a share of the peak."""
         with h5py.File(self.path("stress.h5"), "r+") as file:

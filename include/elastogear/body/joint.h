@@ -32,6 +32,8 @@ const std::vector<std::string>& joint_names();
 bool has_rotation_axis(JointType type);     ///< has an angle about an axis
 bool has_translation_axis(JointType type);  ///< has a displacement along an axis
 bool has_rotation_vector(JointType type);   ///< its last three coordinates are a local rotation vector
+/// Is coordinate i an angle, or one of a local rotation vector, in rad? Others are lengths.
+bool is_angle(JointType type, Eigen::Index i);
 
 struct Placement {
   Eigen::Vector3d r_WB;  ///< m

@@ -109,17 +109,12 @@ double distance(const model::Surface& surface, const contact::SurfaceMotion& fro
   return std::sqrt(moved.colwise().squaredNorm().maxCoeff());
 }
 
-bool is_rotation(body::JointType type, Eigen::Index coordinate) {
-  if (body::has_rotation_vector(type)) return type != body::JointType::free || coordinate >= 3;
-  return body::has_rotation_axis(type) && coordinate == 0;
-}
-
 // Largest change of a rotation, rad; places alone do not tell of whole turns.
 double largest_turn(const System& system, const Eigen::VectorXd& change) {
   double largest = 0;
   for (const System::Body& body : system.bodies())
     for (Eigen::Index i = 0; i < body.n_open(); ++i)
-      if (is_rotation(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]))
+      if (body::is_angle(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]))
         largest = std::max(largest, std::abs(change[body.first + i]));
   return largest;
 }
@@ -224,9 +219,8 @@ PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, vo
 std::string coordinate_name(body::JointType type, Eigen::Index i) {
   constexpr const char* kFree[] = {
       "x", "y", "z", "the rotation about x", "the rotation about y", "the rotation about z"};
-  if (body::has_rotation_vector(type)) return kFree[type == body::JointType::free ? i : i + 3];
-  return body::has_rotation_axis(type) && i == 0 ? "the rotation about its axis"
-                                                 : "the displacement along its axis";
+  if (body::has_rotation_vector(type)) return kFree[i + 6 - body::coordinate_count(type)];
+  return body::is_angle(type, i) ? "the rotation about its axis" : "the displacement along its axis";
 }
 
 // Names of the coordinates that only sigma holds.

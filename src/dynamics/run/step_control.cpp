@@ -52,11 +52,6 @@ Eigen::VectorXd amplitudes(const model::ElasticBody& body) {
   return q;
 }
 
-bool is_angle(body::JointType type, Eigen::Index i) {
-  if (type == body::JointType::free) return i >= 3;
-  return type == body::JointType::spherical || (body::has_rotation_axis(type) && i == 0);
-}
-
 bool are_steps_chosen(const TimeSettings& settings) {
   return !settings.relax && (settings.dt == 0 || settings.step_tolerance > 0);
 }
@@ -223,7 +218,7 @@ Eigen::VectorXd coordinates_per_length(const System& system) {
   Eigen::VectorXd scale(system.size());
   for (const System::Body& body : system.bodies()) {
     for (Eigen::Index i = 0; i < body.n_open(); ++i) {
-      const bool angle = is_angle(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]);
+      const bool angle = body::is_angle(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]);
       scale[body.first + i] = angle ? 1 / reach(body) : 1;
     }
     scale.segment(body.first + body.n_open(), body.eq.n_q()) = amplitudes(*body.eq.body);
