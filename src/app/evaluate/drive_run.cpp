@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "app/console/plausibility.h"
 #include "app/gear/bearing_options.h"
 #include "app/gear/drive_options.h"
-#include "app/gear/misalignment.h"
-#include "app/gear/modification_options.h"
-#include "app/options/rows.h"
 #include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
@@ -26,44 +22,37 @@ namespace {
 
 using evaluation::Gear, evaluation::PairOfRun;
 
-enum class Kind { positions, equilibrium, in_time };
+using model::Analysis;
 
 // A result file with the times that count.
 struct Source {
   std::string path;
   model::ResultHeader header;
-  Kind kind = Kind::positions;
+  Analysis analysis = Analysis::sweep;
   Eigen::VectorXd time;    // all
   std::vector<int> steps;  // that count
 };
 
-std::string given_in(const model::ResultHeader& header, const std::string& option) {
-  const auto found = header.provenance.find("option_" + option);
-  return found == header.provenance.end() ? "" : found->second;
+// Zeros in the run of a system of bodies.
+model::DriveInput drive_of(const Source& source) {
+  return source.header.input->drive.value_or(model::DriveInput{});
 }
 
-// 0 where the option was not given.
-double number_of(const model::ResultHeader& header, const std::string& option) {
-  return std::strtod(given_in(header, option).c_str(), nullptr);
-}
-
-Kind kind_of(const std::string& path, const model::ResultHeader& header) {
-  const std::string analysis = given_in(header, "analysis");
-  if (analysis == "sweep") return Kind::positions;
-  if (analysis == "static") return Kind::equilibrium;
-  require(analysis == "dynamic", path,
-          ": is the result of analysis: ", analysis.empty() ? "unknown" : analysis,
+Analysis analysis_of(const std::string& path, const std::optional<model::RunInput>& input) {
+  const bool serves = input && input->analysis != Analysis::relaxation;
+  require(serves, path, ": is the result of analysis: ",
+          input ? model::analysis_names()[static_cast<std::size_t>(input->analysis)] : "unknown",
           "; evaluate reads those of sweep, static and dynamic");
-  return Kind::in_time;
+  return input->analysis;
 }
 
 std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings) {
   const int n = static_cast<int>(source.time.size());
   std::vector<int> steps;
-  const bool spans = source.kind == Kind::in_time;
+  const bool spans = source.analysis == Analysis::motion;
   require(spans || (!settings.from && !settings.to), source.path,
           ": options -from and -to are for runs in time (analysis: dynamic)");
-  for (int i = source.kind == Kind::equilibrium ? n - 1 : 0; i < n; ++i)
+  for (int i = source.analysis == Analysis::equilibrium ? n - 1 : 0; i < n; ++i)
     if (source.time[i] >= settings.from.value_or(-INFINITY) &&
         source.time[i] <= settings.to.value_or(INFINITY))
       steps.push_back(i);
@@ -73,9 +62,9 @@ std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings
 }
 
 Source open_source(const DriveOfRun& of, const std::string& path) {
-  Source source{path, io::read_result_header(path), Kind::positions, io::read_times(path), {}};
+  Source source{path, io::read_result_header(path), Analysis::sweep, io::read_times(path), {}};
   require(source.time.size() > 0, path, ": holds no times");
-  source.kind = kind_of(path, source.header);
+  source.analysis = analysis_of(path, source.header.input);
   source.steps = steps_of(source, of.settings);
   require_input(of.options, path);
   return source;
@@ -130,10 +119,10 @@ void require_teeth(const evaluation::Flanks& flanks, const Gear& gear, const std
 }
 
 Eigen::VectorXd rolls(const DriveOfRun& of, const Source& source) {
-  const double roll = number_of(source.header, "roll");
-  if (source.kind == Kind::in_time)
+  const double roll = drive_of(source).roll;
+  if (source.analysis == Analysis::motion)
     return evaluation::roll_of_run(gear_of(of, source, of.drive.members.front().name), roll);
-  if (source.kind == Kind::equilibrium) return Eigen::VectorXd::Constant(1, roll);
+  if (source.analysis == Analysis::equilibrium) return Eigen::VectorXd::Constant(1, roll);
   return source.time(source.steps);
 }
 
@@ -179,37 +168,34 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   }
   drive::make_room(source.steps.size(), pair);
   pair.roll = rolls(of, source);
-  if (source.kind == Kind::in_time) pair.time = source.time(source.steps);
+  if (source.analysis == Analysis::motion) pair.time = source.time(source.steps);
   pair.first_teeth = of.drive.members.front().toothing.z;
   pair.sense = of.options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
-  pair.turning = source.kind == Kind::positions ? 1 : pair.sense;
-  pair.speed = std::abs(number_of(source.header, "speed"));
+  pair.turning = source.analysis == Analysis::sweep ? 1 : pair.sense;
+  pair.speed = std::abs(drive_of(source).speed);
   pair.strips = of_pair.strips;
-  pair.friction = number_of(source.header, "contact_friction");
+  pair.friction = of_pair.friction;
   read_times(source, of_pair, flanks, pair);
-  if (source.kind != Kind::in_time) require_roll_angles(pair, source.path);
+  if (source.analysis != Analysis::motion) require_roll_angles(pair, source.path);
   evaluation::take_hertz(pair);
   return pair;
 }
 
 // Are the flanks of a run exact and in their place?
-bool is_exact(const model::ResultHeader& header, const std::string& gear) {
-  for (const OptionTable& table : {modification_table(), misalignment_table()})
-    for (const OptionSpec& spec : table)
-      if (!given_in(header, with_word(spec.name, gear)).empty()) return false;
-  return given_in(header, gear + "_deviation").empty();
+bool is_exact(const Source& source, const std::string& gear) {
+  const std::vector<std::string>& inexact = source.header.input->inexact;
+  return std::find(inexact.begin(), inexact.end(), gear) == inexact.end();
 }
 
 void set_unloaded(const Source& source, const std::map<std::string, Eigen::VectorXd>& unloaded,
                   NamedPair& pair, std::vector<std::string>& notes) {
-  if (source.kind == Kind::in_time) return;
+  if (source.analysis == Analysis::motion) return;
   const auto known = unloaded.find(pair.name);
   if (known != unloaded.end()) {
     require(known->second.size() == pair.run.roll.size(), source.path, ": has ", pair.run.roll.size(),
             " positions, the unloaded result has ", known->second.size(), ": sweep both over the same ones");
     pair.run.unloaded = known->second;
-  } else if (is_exact(source.header, pair.run.gear[0].name) &&
-             is_exact(source.header, pair.run.gear[1].name)) {
+  } else if (is_exact(source, pair.run.gear[0].name) && is_exact(source, pair.run.gear[1].name)) {
     pair.run.unloaded = Eigen::VectorXd::Zero(pair.run.roll.size());
   } else {
     notes.push_back(
@@ -331,7 +317,7 @@ CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& r
   }
   run.bearings = read_bearings(of, source);
   require(!run.pairs.empty(), result, ": holds no pair of bodies in contact");
-  if (source.kind == Kind::in_time)
+  if (source.analysis == Analysis::motion)
     for (const std::string& name : source.header.sensors) {
       const Eigen::MatrixXd a = io::read_sensor_history(result, name).acceleration;
       run.sensors[name] = a(Eigen::all, source.steps).transpose();
