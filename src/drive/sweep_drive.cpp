@@ -2,9 +2,9 @@
 
 #include <map>
 
+#include "drive/pair_of_run.h"
 #include "elastogear/base/error.h"
 #include "elastogear/drive/finite_elements.h"
-#include "elastogear/drive/pair_of_run.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/model/fingerprint.h"
 #include "elastogear/recovery/recover.h"
