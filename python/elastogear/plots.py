@@ -25,11 +25,11 @@ def _axes(axes: Any, **options: Any) -> Any:
 
 
 def _time(axes: Any, of: Union["Result", "Stress"]) -> NDArray[Any]:
-    label, factor = {"sweep": ("roll angle in pitches", 1.0), "static": ("load factor", 1.0)}.get(
-        of.provenance.get("option_analysis", ""), ("time in ms", _MS))
-    axes.set_xlabel(label)
+    name, unit = of.time_axis
+    in_time = unit == "s"
+    axes.set_xlabel(f"{name} in ms" if in_time else name if unit == "1" else f"{name} in {unit}")
     axes.grid(alpha=0.3)
-    return factor * of.time
+    return _MS * of.time if in_time else of.time
 
 
 def contact_force(result: "Result", pair: Optional[str] = None, axes: Any = None) -> Any:

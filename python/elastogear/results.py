@@ -111,6 +111,7 @@ class Result:
     When another run has written the file anew, asking for more is an error.
 
     time         (n_t,), s; of an equilibrium the load factor, of a sweep the roll angle in pitches
+    time_axis    name and unit of the time: ("time", "s"), ("load factor", "1"), ("roll angle", "pitches")
     bodies, pairs, bushings, sensors    their names
     complete     did the run reach its end?
     provenance   options in force, versions
@@ -127,6 +128,7 @@ class Result:
         self._stamp = _stamp(self.path)
         header = _library.read_result_header(self.path)
         self.time: Array = header["time"]
+        self.time_axis: tuple[str, str] = header["time_axis"]
         self.bodies: list[str] = [body[0] for body in header["bodies"]]
         self.pairs: list[str] = header["pairs"]
         self.bushings: list[str] = header["bushings"]
@@ -227,6 +229,7 @@ class Stress:
     """A stress file.
 
     time         (n_t,), as of the result
+    time_axis    name and unit of the time, as of the result
     sets         list of StressSet; one of them by stress["pinion", "root"]
     provenance   options in force, versions
     path         of the file
@@ -238,6 +241,7 @@ class Stress:
         self.report = report
         values = _library.read_stress(self.path)
         self.time: Array = values["time"]
+        self.time_axis: tuple[str, str] = values["time_axis"]
         self.sets = [StressSet(each) for each in values["sets"]]
         self.provenance: dict[str, str] = values["provenance"]
 

@@ -29,6 +29,8 @@ void move(Member& member, const Vector3d& away, const Misalignment& by) {
   member.angle += by.axial / member.toothing.p;  // as on a screw: its flanks stay where they meet the mate's
   const Eigen::AngleAxisd rotation(Eigen::Matrix3d(tilt * R));
   member.rotation = rotation.angle() * rotation.axis();
+  for (double part : {by.radial, by.tangential, by.axial, by.inclination, by.skew})
+    if (part != 0) member.misaligned = true;
 }
 
 }  // namespace

@@ -141,6 +141,14 @@ std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member)
   return member < operation.bearings.size() ? operation.bearings[member] : std::vector<Bearing>{};
 }
 
+model::RunInput run_input(const Drive& drive, const Operation& operation, double roll) {
+  model::RunInput input{.analysis = operation.analysis,
+                        .drive = model::DriveInput{roll, operation.torque, operation.speed}};
+  for (const Member& member : drive.members)
+    if (member.deviations || member.misaligned) input.inexact.push_back(member.name);
+  return input;
+}
+
 DriveSystem drive_system(const Drive& drive, const Operation& operation) {
   require_held(drive, operation);
   DriveSystem system;

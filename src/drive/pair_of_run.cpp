@@ -1,4 +1,4 @@
-#include "elastogear/drive/pair_of_run.h"
+#include "drive/pair_of_run.h"
 
 #include <cmath>
 

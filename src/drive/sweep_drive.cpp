@@ -2,9 +2,9 @@
 
 #include <map>
 
+#include "drive/pair_of_run.h"
 #include "elastogear/base/error.h"
 #include "elastogear/drive/finite_elements.h"
-#include "elastogear/drive/pair_of_run.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/model/fingerprint.h"
 #include "elastogear/recovery/recover.h"
@@ -62,11 +62,13 @@ std::vector<evaluation::PairOfRun> sweep_drive(const Drive& drive, const Operati
                                                const std::vector<std::string>& body_files,
                                                const std::vector<double>& positions,
                                                const std::string& result) {
-  std::map<std::string, std::string> provenance = {{"option_analysis", "sweep"}};
-  const dynamics::SlowMotion motion = motion_of(drive, operation, body_files, provenance);
+  std::map<std::string, std::string> identities;
+  const dynamics::SlowMotion motion = motion_of(drive, operation, body_files, identities);
   const dynamics::SystemModel& model = motion.prepared->model();
   model::ResultHeader header = dynamics::result_header(model);
-  header.provenance.merge(provenance);
+  header.provenance.merge(identities);
+  header.input = run_input(drive, operation, 0);
+  header.input->analysis = Analysis::sweep;
   for (std::size_t i = 0; i < body_files.size(); ++i) header.bodies[i].file = body_files[i];
   const std::vector<model::Snapshot> found = swept(motion, header, positions, result);
   const std::vector<io::StressSet> roots = root_stresses(result);

@@ -298,7 +298,8 @@ model::ResultHeader result_header(const SystemModel& model) {
                                     {pair.body[0], pair.body[1]},
                                     {},
                                     unilateral ? "unilateral" : "penalty",
-                                    strips_of(model, pair)};
+                                    strips_of(model, pair),
+                                    pair.settings.friction.mu};
     for (int side : {0, 1})
       entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);

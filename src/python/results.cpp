@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <utility>
 
 #include "elastogear/base/error.h"
@@ -18,6 +19,12 @@
 namespace elastogear::python {
 namespace {
 
+// Name and unit of the times of a file.
+py::tuple time_axis(const std::optional<model::RunInput>& input) {
+  const io::TimeAxis axis = io::time_axis(input);
+  return py::make_tuple(axis.name, axis.unit);
+}
+
 py::dict result_header(const std::string& path) {
   const Work work;
   const model::ResultHeader header = io::read_result_header(path);
@@ -32,6 +39,7 @@ py::dict result_header(const std::string& path) {
   all["provenance"] = header.provenance;
   all["complete"] = io::is_complete(path);
   all["time"] = vector(io::read_times(path));
+  all["time_axis"] = time_axis(header.input);
   return all;
 }
 
@@ -147,6 +155,7 @@ py::dict read_stress(const std::string& path) {
   all["time"] = vector(std::move(file.time));
   all["sets"] = sets;
   all["provenance"] = file.provenance;
+  all["time_axis"] = time_axis(file.input);
   return all;
 }
 

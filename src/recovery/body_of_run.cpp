@@ -1,31 +1,17 @@
 #include "elastogear/recovery/body_of_run.h"
 
-#include <filesystem>
-
 #include "elastogear/base/error.h"
 #include "elastogear/io/body_file.h"
-#include "elastogear/io/describe.h"
 #include "elastogear/model/fingerprint.h"
 
 namespace elastogear::recovery {
 namespace {
 
-using Provenance = std::map<std::string, std::string>;
-
-bool says(const Provenance& provenance, const std::string& key, const std::string& value) {
-  const auto found = provenance.find(key);
-  return found != provenance.end() && found->second == value;
-}
-
-// A body of static responses alone has no elastic coordinates, either, and is not rigid. Results that do not
-// say which bodies are rigid have the options of their run.
-bool is_rigid(const BodyOfRun& body, const Provenance& of_run) {
+// A body of static responses alone has no elastic coordinates, either, and is not rigid: results say so.
+bool is_rigid(const BodyOfRun& body, const std::map<std::string, std::string>& of_run) {
   if (body.history.q.rows() > 0) return false;
-  if (const auto said = of_run.find(model::rigid_key(body.name)); said != of_run.end())
-    return said->second == "true";
-  if (says(of_run, "option_" + body.name + "_rigid", "true") || !std::filesystem::is_regular_file(body.file))
-    return true;
-  return !says(io::read_provenance(body.file), "option_modes", "0");
+  const auto said = of_run.find(model::rigid_key(body.name));
+  return said == of_run.end() || said->second == "true";
 }
 
 }  // namespace

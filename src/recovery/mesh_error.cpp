@@ -216,7 +216,7 @@ double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<i
 
 bool tells_mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic) {
   return elastic.n_q() > 0 && body.run.history.q.rows() == elastic.n_q() && !body.relaxes() &&
-         !elastic.provenance.contains("option_stiffness");
+         elastic.assembled_K;
 }
 
 Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic,

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kLargestReference =
     500'000;  // displacements of a body that is factorised for an estimate
-constexpr const char* kPointMass = "option_point_mass_";  // beginning of keys in the provenance
 
 // Positions in the flexibility of these surface nodes; empty when the body file lacks the static response to
 // forces on one of them.
@@ -27,11 +26,10 @@ std::vector<int> find_responses(const model::Flexibility& flexibility, const std
 
 // Why no factor of the stiffness matrix can serve; empty: it can.
 std::string obstacle_to_factor(const model::ElasticBody& body) {
-  if (body.provenance.contains("option_stiffness"))
+  if (!body.assembled_K)
     return "solves with the stiffness of the mesh, this body was reduced from matrices of another program "
-           "(-stiffness)";
-  const auto point_mass = body.provenance.lower_bound(kPointMass);
-  if (body.floating && point_mass != body.provenance.end() && point_mass->first.starts_with(kPointMass))
+           "(-stiffness), or before body files said so";
+  if (body.floating && !body.assembled_M)
     return "balances loads on a free body by the mass of its mesh, this one has point masses besides";
   return "";
 }

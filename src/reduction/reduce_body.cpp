@@ -52,6 +52,8 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
   if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
   body.stress = make_stress(mesh, options.stress_nodes);
   body.markers = make_markers(mesh, options.markers);
+  body.assembled_K = !options.imported;
+  body.assembled_M = !options.imported && options.point_mass.empty();
   body.provenance = options.provenance;
   return body;
 }

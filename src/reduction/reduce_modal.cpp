@@ -30,12 +30,6 @@ constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
 // Are static responses to loads at markers coordinates?
 bool attaches(const ReductionOptions& o) { return o.attachments && !o.markers.empty(); }
 
-// Does this entry of the provenance change how the eigensolver works?
-bool asks_solver(const std::string& name) {
-  return (name.starts_with("option_eps_") || name.starts_with("option_st_")) &&
-         !name.starts_with("option_eps_monitor") && !name.starts_with("option_eps_view");
-}
-
 // Fingerprint of all that the modes depend on, but for what the solver adds. Rank 0.
 Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
@@ -44,8 +38,7 @@ Fingerprint fingerprint_of(const Job& job) {
   for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision),
                      static_cast<int>(o.invariants)})
     f.add(static_cast<double>(option));
-  for (const auto& [name, value] : o.provenance)
-    if (asks_solver(name)) f.add(std::string(name).append("=").append(value));
+  for (const auto& [name, value] : o.solver) f.add(std::string(name).append("=").append(value));
   if (relaxes(o)) f.add(std::string("relaxing"));
   if (attaches(o)) f.add(std::string("attachments"));
   if (o.interval)

@@ -46,7 +46,9 @@ def write_stresses(path, height, pitches=1, uneven=0.0, error=None):
     roll = np.arange(pitches * PER_PITCH) / PER_PITCH
     with h5py.File(path, "w") as file:
         file.attrs["format"], file.attrs["version"] = np.bytes_("elastogear stress"), 1
-        file.create_group("provenance").attrs["option_torque"] = np.bytes_("100")
+        run = file.create_group("provenance/run")
+        run.attrs["analysis"], run.attrs["creeps"] = np.bytes_("sweep"), 0
+        run.create_group("drive").attrs.update({"roll": 0.0, "torque": 100.0, "speed": 0.0})
         file["time"] = roll
         for body, z in TEETH.items():
             tooth = np.repeat(np.arange(z), 2)

@@ -3,7 +3,7 @@ import numpy as np
 
 from misuse_case import (Case, edited, encoded, first, flipped, foldered, full, gone, linked, NO_SPACE, piped, removed, reworded, socketed,
                          written)
-from misuse_files import attribute
+from misuse_files import attribute, attribute_of
 
 CASES = "{evaluate} -result gear_cases"
 
@@ -63,6 +63,16 @@ EVALUATE = [
     Case("evaluation of a result without forces", r"gears_result.h5: there is no /contact/pinion:wheel/points/force", "{evaluate}",
          before=removed("gears_result.h5", "contact/pinion:wheel/points/force")),
     Case("evaluation of a result of the future", r"gears_result.h5: has version 999", "{evaluate}", before=lambda bench: attribute(bench, "gears_result.h5", "version", 999)),
+    Case("evaluation of a result that does not say its analysis", r"gears_result.h5: is the result of analysis: unknown; evaluate reads", "{evaluate}",
+         before=removed("gears_result.h5", "provenance/run")),
+    Case("evaluation of a relaxation", r"gears_result.h5: is the result of analysis: relax; evaluate reads", "{evaluate}",
+         before=lambda bench: attribute_of(bench, "gears_result.h5", "provenance/run", "analysis", np.bytes_("relax"))),
+    Case("evaluation of another analysis", r"/provenance/run: attribute analysis = 'magic', must be one of dynamic, static, relax, sweep", "{evaluate}",
+         before=lambda bench: attribute_of(bench, "gears_result.h5", "provenance/run", "analysis", np.bytes_("magic"))),
+    Case("evaluation at a speed that is not finite", r"/provenance/run/drive: attribute speed = nan, must be finite", "{evaluate}",
+         before=lambda bench: attribute_of(bench, "gears_result.h5", "provenance/run/drive", "speed", np.nan)),
+    Case("evaluation of friction that drives", r"/contact/pinion:wheel: attribute friction = -1, must be at least 0", "{evaluate}",
+         before=lambda bench: attribute_of(bench, "gears_result.h5", "contact/pinion:wheel", "friction", -1.0)),
     Case("evaluation of cases of which one is gone", r"cases.csv, line 3: there is no file gear_cases/case_0002.h5", CASES, before=gone("gear_cases/case_0002.h5")),
     Case("evaluation of an empty list of cases", r"gear_cases/cases.csv: its heading must have", CASES, before=written("gear_cases/cases.csv", "")),
     Case("evaluation of a list of cases that is a folder", r"gear_cases: is a folder without cases.csv", CASES, before=foldered("gear_cases/cases.csv")),

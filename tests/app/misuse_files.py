@@ -239,6 +239,13 @@ def attribute(bench, name, key, value):
         file.attrs.create(key, value, shape=old.shape, dtype=old.dtype)
 
 
+def attribute_of(bench, name, place, key, value):
+    """An attribute of the group `place`, of another value or kind."""
+    with h5py.File(bench.path(name), "r+") as file:
+        del file[place].attrs[key]
+        file[place].attrs[key] = value
+
+
 def remove(bench, name, dataset):
     with h5py.File(bench.path(name), "r+") as file:
         del file[dataset]

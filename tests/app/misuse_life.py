@@ -80,6 +80,8 @@ LIFE = DUTY + STRENGTH + [
     Case("life of a mesh", r"pinion.msh: is no HDF5 file", "{life} -files pinion.msh"),
     Case("life of a folder", r"folder: is not a regular file", "{life} -files folder"),
     Case("life of a bar's stresses", r"stress.h5: does not say the torque of its run; give it by -file_torques", "{life} -files stress.h5"),
+    Case("life of stresses that do not say their torque", r"gears_stress.h5: does not say the torque of its run; give it by -file_torques", OF_STRESSES,
+         before=removed("gears_stress.h5", "provenance/run/drive")),
     Case("life of two files of one torque", r"50 N m.*(twice|two|both)", "{life} -files gears_result.h5,gears_stress.h5"),
     Case("life of one file under two torques", r"2 torques for 1 files", "{life} -files gears_result.h5 -file_torques 50,60"),
     Case("life of a file under an infinite torque", r"file_torques = 'inf': must be a finite number", "{life} -files gears_result.h5 -file_torques inf"),

@@ -63,6 +63,22 @@ TEST(DriveSystem, a_motion_has_the_torques_and_speeds_of_the_teeth) {
   EXPECT_DOUBLE_EQ(system.bodies[1].rotation.s_dot_0, -5 * 17. / 43);
 }
 
+TEST(DriveSystem, says_what_its_run_was_asked_for) {
+  Drive drive = pair_of_gears();
+  const Operation operation{.analysis = Analysis::motion, .torque = -30, .speed = -5};
+  const model::RunInput exact = run_input(drive, operation, 0.5);
+  ASSERT_TRUE(exact.drive);
+  EXPECT_EQ(exact.analysis, Analysis::motion);
+  EXPECT_EQ(exact.drive->torque, -30);
+  EXPECT_EQ(exact.drive->speed, -5);
+  EXPECT_EQ(exact.drive->roll, 0.5);
+  EXPECT_TRUE(exact.inexact.empty());
+  drive.members[0].deviations.emplace();
+  misalign(drive, {{}, {.skew = 1e-3}});
+  EXPECT_EQ(run_input(drive, operation, 0.5).inexact, (std::vector<std::string>{"pinion", "wheel"}));
+  EXPECT_FALSE(drive.members[0].misaligned);
+}
+
 TEST(DriveSystem, gears_in_bearings_are_free_and_a_stiff_spring_holds_the_last) {
   const Drive drive = pair_of_gears();
   const DriveSystem system = drive_system(drive, {.torque = 30, .bearings = {kBearings, kBearings}});

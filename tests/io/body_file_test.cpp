@@ -56,6 +56,8 @@ void expect_equal(const model::ElasticBody& a, const model::ElasticBody& b) {
   ASSERT_EQ(a.markers.size(), b.markers.size());
   for (std::size_t i = 0; i < a.markers.size(); ++i) EXPECT_TRUE(equal(a.markers[i], b.markers[i]));
   EXPECT_EQ(a.provenance, b.provenance);
+  EXPECT_EQ(a.assembled_K, b.assembled_K);
+  EXPECT_EQ(a.assembled_M, b.assembled_M);
 }
 
 std::string message(const std::string& path) {

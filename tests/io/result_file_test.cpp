@@ -53,6 +53,38 @@ TEST_F(ResultFile, gives_the_header_back_in_order) {
   EXPECT_EQ(a.provenance, b.provenance);
 }
 
+TEST_F(ResultFile, says_what_the_run_was_asked_for) {
+  write_result(path, sample_snapshots(1));
+  const auto input = read_result_header(path).input;
+  ASSERT_TRUE(input && input->drive);
+  EXPECT_EQ(input->analysis, model::Analysis::motion);
+  EXPECT_FALSE(input->creeps);
+  EXPECT_EQ(input->drive->roll, 0.25);
+  EXPECT_EQ(input->drive->torque, -300);
+  EXPECT_EQ(input->drive->speed, 150);
+  EXPECT_EQ(input->inexact, std::vector<std::string>{"wheel"});
+}
+
+TEST_F(ResultFile, may_lack_what_the_run_was_asked_for) {
+  model::ResultHeader header = sample_header();
+  header.input = {};
+  ResultWriter writer(path, header);
+  writer.append(sample_snapshot(1));
+  writer.finish();
+  EXPECT_FALSE(read_run_input(path));
+}
+
+TEST(TimeAxis, is_that_of_the_analysis) {
+  const auto text = [](model::Analysis analysis, bool creeps) {
+    return time_axis(model::RunInput{analysis, creeps}).at(2);
+  };
+  EXPECT_EQ(text(model::Analysis::sweep, false), "roll angle 2 pitches");
+  EXPECT_EQ(text(model::Analysis::equilibrium, false), "load factor 2");
+  EXPECT_EQ(text(model::Analysis::equilibrium, true), "t = 2 s");
+  EXPECT_EQ(text(model::Analysis::relaxation, false), "t = 2 s");
+  EXPECT_EQ(time_axis({}).at(2), "t = 2 s");
+}
+
 // More snapshots than are buffered, and not a multiple of them.
 constexpr int kSteps = 150;
 

@@ -63,6 +63,7 @@ inline model::ElasticBody sample_full_body() {
   const auto n_q = static_cast<Eigen::Index>(source.free_dof.size());
   model::ElasticBody body = sample_modal_body(n_q);
   body.basis = model::Basis::full;
+  body.assembled_M = false;
   body.frequency.resize(0);
   body.zeta.resize(0);
   body.K_r.coeffRef(0, 1) = body.K_r.coeffRef(1, 0) = -1.0 / 7;

@@ -12,6 +12,7 @@ inline model::ResultHeader sample_header() {
   header.provenance = {{"options", "-ts_dt 1e-6"}};
   header.bushings = {"right", "left"};
   header.sensors = {"tip"};
+  header.input = {model::Analysis::motion, false, model::DriveInput{0.25, -300, 150}, {"wheel"}};
   return header;
 }
 

@@ -37,6 +37,15 @@ TEST_F(StressFileTest, gives_back_what_was_written) {
   EXPECT_EQ(read.sets[0].X, history.sets[0].X);
 }
 
+TEST_F(StressFileTest, says_the_torque_of_its_run) {
+  history.input = {model::Analysis::sweep, false, model::DriveInput{0, -300, 0}};
+  write_stress(folder / "a.h5", history);
+  const auto input = read_stress(folder / "a.h5").input;
+  ASSERT_TRUE(input && input->drive);
+  EXPECT_EQ(input->drive->torque, -300);
+  EXPECT_EQ(input->analysis, model::Analysis::sweep);
+}
+
 TEST_F(StressFileTest, keeps_the_estimated_errors) {
   history.sets[0].mesh_error = Eigen::MatrixXd::Random(2, 2);
   history.sets[0].contact_error = Eigen::MatrixXd::Random(2, 2);

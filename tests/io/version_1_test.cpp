@@ -20,6 +20,7 @@ const std::string folder = IO_TESTS "/version_1/";
 TEST(Version1, of_a_body_is_read) {
   const auto body = read_body(folder + "body.h5");
   EXPECT_EQ(body.n_q(), 3);
+  EXPECT_FALSE(body.assembled_K || body.assembled_M);  // the file does not say it
   EXPECT_EQ(body.provenance.at("git_hash"), "17c2e8296de7");
   EXPECT_EQ(body.flexibility.node.size(), 6u);
   EXPECT_EQ(read_stress_responses(folder + "body.h5", 0).cols(), 3);

@@ -77,6 +77,7 @@ class Runs(WithDrive):
         body = eg.Body("pinion.h5")
         self.assertEqual(body.stress("root", result.body("pinion").q[-1]).shape, (len(root.node), 6))
         self.assertEqual(len(body.frequencies), 4)
+        self.assertEqual([result.time_axis, stress.time_axis], 2 * [("load factor", "1")])
         with self.assertRaisesRegex(KeyError, "pinion root"):
             stress["pinion", "tip"]
         import matplotlib

@@ -336,7 +336,7 @@ TEST_F(Recover, estimates_the_errors_of_bodies_without_modes_alike) {
     n_modes = modes;
     const model::ElasticBody body = reduce(model::Basis::modal, true);
     BodyOfRun run = write(body, {1, 1, 1});
-    run.rigid = false;  // what the options of reduce say in files of the program
+    run.rigid = false;  // what results of the program say
     RecoveredBody recovered = prepare_recovery(run, Acceleration::automatic, true, finite_elements());
     return recover_stress(recovered, body, "ymax", true);
   };

@@ -81,6 +81,8 @@ TEST(ImportedBody, may_be_free_and_needs_no_cells) {
   EXPECT_LT((imported.frequency - own.frequency).norm(), 1e-9 * own.frequency.norm());
   EXPECT_LT((imported.inertia.J - own.inertia.J).norm(), kRoundoff * own.inertia.J.norm());
   EXPECT_LT(imported.inertia.C_r.norm(), 1e-9 * std::sqrt(own.inertia.J.trace()));
+  EXPECT_TRUE(own.assembled_K && own.assembled_M);
+  EXPECT_FALSE(imported.assembled_K || imported.assembled_M);
 }
 
 TEST(ImportedBody, keeps_every_displacement_in_the_full_basis) {

@@ -65,6 +65,7 @@ TEST(PointMass, on_a_bar_makes_it_swing_as_a_spring_and_a_mass) {
   const double k = 2e11 * kBar, frequency = std::sqrt(k / (kMass + kBar / 3)) / (2 * M_PI);
   EXPECT_NEAR(body.frequency[stretching], frequency, kHigherOrder * frequency);
   EXPECT_NEAR(body.inertia.m, kMass + kBar, kRoundoff * kMass);
+  EXPECT_TRUE(body.assembled_K && !body.assembled_M);
   const double tip = Phi(0, stretching);
   EXPECT_NEAR(body.inertia.C_l(stretching, 0), (kMass + kBar / 2) * tip,
               kHigherOrder * kMass * std::abs(tip));

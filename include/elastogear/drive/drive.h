@@ -39,6 +39,7 @@ struct Member {
   double ratio = 1;                                      ///< -, its speed over that of the first member
   double width = 0;                                      ///< m, of its teeth, symmetric about z = 0
   std::optional<gear::FlankDeviations> deviations = {};  ///< of its flanks; nothing: they are exact
+  bool misaligned = false;                               ///< by misalign()
 };
 
 /// Two members in mesh.

@@ -8,6 +8,7 @@
 #include "elastogear/drive/drive.h"
 #include "elastogear/drive/flank_surface.h"
 #include "elastogear/dynamics/sweep.h"
+#include "elastogear/model/run_input.h"
 
 namespace elastogear::drive {
 
@@ -19,7 +20,7 @@ struct Bearing {
   double tilt = 0;               ///< N m/rad, against tilting
 };
 
-enum class Analysis { motion, equilibrium, sweep };
+using model::Analysis;
 
 /// How a drive is run.
 struct Operation {
@@ -31,6 +32,9 @@ struct Operation {
 
 /// The bearings of a member; none: its axis is fixed.
 std::vector<Bearing> bearings_of(const Operation& operation, std::size_t member);
+
+/// What result files say of a drive that is run so and begins at this roll angle (pitches).
+model::RunInput run_input(const Drive& drive, const Operation& operation, double roll);
 
 /// Bodies stand in the members' order and lack what only a reduced body knows: see take_body().
 struct DriveSystem {

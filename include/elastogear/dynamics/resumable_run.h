@@ -20,8 +20,9 @@ struct ResumableSettings {
   std::string output;            ///< result file; parts of it are kept in the folder `output`.partial
   double checkpoint_every = 60;  ///< s of wall time between two; 0: after each step
   Resume resume = Resume::automatic;
-  /// Returns whether results depend on this entry of the provenance; empty: on all.
-  std::function<bool(const std::string& key)> has_effect = {};
+  /// Returns the name of the input that this entry of the provenance is, for messages; "" where results do
+  /// not depend on it. Empty: they depend on all entries, whose keys are their names.
+  std::function<std::string(const std::string& key)> input_name = {};
   /// Is told the time (s) from which an earlier run goes on, and in what its input differs, such as
   /// "ts_dt 2e-07 (was 1e-07)".
   std::function<void(double time, const std::string& differences)> on_resume = {};

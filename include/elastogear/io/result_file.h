@@ -92,13 +92,16 @@ model::ResultHeader read_result_header(const std::string& path);
 /// Did the run reach its end? Files that do not say so are taken to be complete.
 bool is_complete(const std::string& path);
 Eigen::VectorXd read_times(const std::string& path);
-/// What the times of a result, or of what was made of it, are by its provenance.
+/// What a result, or stresses of one, are the outcome of; nothing where the file does not say it.
+std::optional<model::RunInput> read_run_input(const std::string& path);
+/// What the times of a result are, or of what was made of it.
 struct TimeAxis {
   std::string name, unit;  ///< "time", "s"; "roll angle", "pitches"; "load factor", "1"
   /// "roll angle 0.25 pitches", "load factor 1", "t = 0.1 s".
   std::string at(double value) const;
 };
-TimeAxis time_axis(const std::map<std::string, std::string>& provenance);
+/// That of a motion where nothing is known.
+TimeAxis time_axis(const std::optional<model::RunInput>& input);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
 /// History of a body without its elastic coordinates, of which a full basis has many.
 BodyHistory read_joint_history(const std::string& path, const std::string& body);

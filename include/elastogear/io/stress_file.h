@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "elastogear/model/run_input.h"
 
 namespace elastogear::io {
 
@@ -31,6 +34,7 @@ struct StressFile {
   Eigen::VectorXd time;  ///< n_t, s
   std::vector<StressSet> sets;
   std::map<std::string, std::string> provenance;
+  std::optional<model::RunInput> input = {};  ///< of the run that they are of; nothing: not known
 };
 
 /// Error when shapes disagree, node numbers are negative or stresses are not finite; the file appears only

@@ -133,8 +133,11 @@ struct ElasticBody {
   int n_attachments = 0;
   Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending but for attachments; empty for full
   Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2); K_r instantaneous
-  double alpha = 0, beta = 0;            ///< 1/s, s: Rayleigh's part of D_r, alpha M_r + beta K_r
-  Eigen::VectorXd zeta;                  ///< modal: n_q, ratios: D_r also has diag(2 zeta omega); or empty
+  /// Are K_r and M_r those of the finite elements of the body's mesh alone? False of matrices of other
+  /// programs, of M_r with point masses, and where a file does not say it.
+  bool assembled_K = true, assembled_M = true;
+  double alpha = 0, beta = 0;  ///< 1/s, s: Rayleigh's part of D_r, alpha M_r + beta K_r
+  Eigen::VectorXd zeta;        ///< modal: n_q, ratios: D_r also has diag(2 zeta omega); or empty
   Surface surface;
   Stress stress;
   std::vector<Marker> markers;

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "elastogear/model/run_input.h"
 
 namespace elastogear::model {
 
@@ -120,11 +123,13 @@ struct ResultHeader {
     std::vector<std::string> group_name[2];  ///< face groups of both surfaces
     std::string law = {};                    ///< of contact: penalty or unilateral; empty: not known
     int strips = 0;                          ///< over the face, where contact has stations; 0: none
+    double friction = 0;                     ///< -, coefficient of sliding friction
   };
   std::vector<Body> bodies;
   std::vector<Pair> pairs;
   std::map<std::string, std::string> provenance;
   std::vector<std::string> bushings = {}, sensors = {};  ///< names
+  std::optional<RunInput> input = {};                    ///< nothing: not known
 };
 
 }  // namespace elastogear::model

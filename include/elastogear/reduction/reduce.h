@@ -65,16 +65,18 @@ struct ReductionOptions {
   int relaxed_states = 0;    ///< of viscoelastic bodies with several laws of relaxation; 0: as many as needed
   /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
   std::function<void(const StaticResponseCost&)> announce = {};
-  bool completeness = true;                            ///< check it: one more factorisation of K
-  int window = 0;                                      ///< modes found at a time, see EigenOptions
-  Store store = Store::all;                            ///< where the modes are stored
-  io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
-  Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
-  Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file
-  double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
-  model::DampingRatio ratio = {};                      ///< modal only, beside it
-  std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node or face set
-  std::string prefix = {};                             ///< of PETSc's options: `-<prefix>eps_type`, ...
+  bool completeness = true;                          ///< check it: one more factorisation of K
+  int window = 0;                                    ///< modes found at a time, see EigenOptions
+  Store store = Store::all;                          ///< where the modes are stored
+  io::Precision precision = io::Precision::float64;  ///< of modes stored at all nodes
+  Symmetry symmetry = Symmetry::automatic;           ///< modal only, see reduction/cyclic.h
+  Invariants invariants = Invariants::linear;        ///< of inertia, stored in the file
+  double alpha = 0, beta = 0;                        ///< 1/s, s: Rayleigh damping D = alpha M + beta K
+  model::DampingRatio ratio = {};                    ///< modal only, beside it
+  std::map<std::string, double> point_mass = {};     ///< kg, spread evenly over each node or face set
+  std::string prefix = {};                           ///< of PETSc's options: `-<prefix>eps_type`, ...
+  /// By name, those of them that say how eigenmodes are found: modes that a killed run left were found so.
+  std::map<std::string, std::string> solver = {};
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
 };
 

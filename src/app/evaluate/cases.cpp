@@ -12,7 +12,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
-#include "elastogear/io/describe.h"
+#include "elastogear/io/result_file.h"
 
 namespace elastogear::app {
 namespace {
@@ -93,10 +93,8 @@ std::vector<Case> read_cases(const std::string& path) {
 }
 
 double torque_of_run(const std::string& file) {
-  const auto provenance = io::read_provenance(file);
-  const auto torque = provenance.find("option_torque");
-  const auto value = torque == provenance.end() ? std::nullopt : parse<double>(torque->second);
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+  const auto input = io::read_run_input(file);
+  return input && input->drive ? std::abs(input->drive->torque) : std::numeric_limits<double>::quiet_NaN();
 }
 
 void require_torque_of_run(const std::string& where, const std::string& file, double torque) {

@@ -22,7 +22,7 @@ std::vector<Case> read_cases(const std::string& path);
 /// where it holds none.
 double number_in_column(const Case& of, const std::string& heading);
 
-/// N m on the first gear in the run that a result file is of, as its options say; NaN where they do not.
+/// N m, size of the torque on the first gear in the run that a file is of; NaN where it does not say it.
 double torque_of_run(const std::string& file);
 
 /// Throws Error that begins with `where` when a result file is of a run under another torque (N m).

@@ -10,6 +10,7 @@ namespace elastogear::app {
 namespace {
 
 using E = EvaluateSettings;
+using R = drive::ReadSettings;
 
 const Rows<E> kEvaluateRows = {
     {"result", &E::result, "-",
@@ -26,14 +27,14 @@ const Rows<E> kEvaluateRows = {
     {"unloaded", &E::unloaded, "-",
      "result file of the same positions under a vanishing torque, for the unloaded transmission error and "
      "the secant stiffness; not needed for exact flanks in place, which have none"},
-    {"from", &E::from, "s", "begin of the span of a run in time that is looked at (default: its start)",
-     kDependent},
-    {"to", &E::to, "s", "end of that span (default: its end)", kDependent},
-    {"root_stress", &E::roots, "-", "recover stresses at the roots of the teeth"},
+    {"from", in(&E::read, &R::from), "s",
+     "begin of the span of a run in time that is looked at (default: its start)", kDependent},
+    {"to", in(&E::read, &R::to), "s", "end of that span (default: its end)", kDependent},
+    {"root_stress", in(&E::read, &R::roots), "-", "recover stresses at the roots of the teeth"},
     {"case_tables", &E::case_tables, "-", "of several cases: CSV tables of each, beside the table of all"},
-    {"mode_acceleration", &E::mode_acceleration, one_of("false", "auto", "true"),
+    {"mode_acceleration", in(&E::read, &R::mode_acceleration), one_of("false", "auto", "true"),
      "of stresses at the roots, see recover"},
-    {"error_estimate", &E::error_estimate, "-", "of stresses at the roots, see recover"},
+    {"error_estimate", in(&E::read, &R::error_estimate), "-", "of stresses at the roots, see recover"},
     {"<body>_file", &E::body_file, "-", "body file, when it is no longer where the result file says"},
 };
 

@@ -2,25 +2,21 @@
 // The options of evaluate, beside those of drive files.
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/options/options.h"
-#include "elastogear/recovery/static_response.h"
+#include "elastogear/drive/drive_result.h"
 
 namespace elastogear::app {
 
 /// What the options ask for.
 struct EvaluateSettings {
-  std::string result = {}, output = {};      ///< result file or folder of cases; file to write
-  std::vector<std::string> coarser = {};     ///< evaluation files of the same cases on coarser meshes
-  std::string unloaded = {};                 ///< result file of the same positions without load; empty: none
-  std::optional<double> from = {}, to = {};  ///< s, span of a run in time
-  bool roots = true;                         ///< recover stresses at the roots
-  bool case_tables = true;                   ///< CSV tables of every case, beside the table of all cases
-  recovery::Acceleration mode_acceleration = recovery::Acceleration::automatic;
-  bool error_estimate = true;
+  std::string result = {}, output = {};   ///< result file or folder of cases; file to write
+  std::vector<std::string> coarser = {};  ///< evaluation files of the same cases on coarser meshes
+  std::string unloaded = {};              ///< result file of the same positions without load; empty: none
+  drive::ReadSettings read = {};
+  bool case_tables = true;  ///< CSV tables of every case, beside the table of all cases
   std::map<std::string, std::string> body_file = {};  ///< by body, where the result names another place
 };
 

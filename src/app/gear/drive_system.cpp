@@ -7,12 +7,6 @@
 namespace elastogear::app {
 namespace {
 
-drive::Analysis analysis_of(const Options& options) {
-  const std::string analysis = options.text("analysis");
-  if (analysis == "sweep") return drive::Analysis::sweep;
-  return analysis == "dynamic" ? drive::Analysis::motion : drive::Analysis::equilibrium;
-}
-
 // Exact flanks meet where their gap is least, between the nodes of the coarsest mesh, and do not enter each
 // other there; bodies without residual flexibility do not either. What belongs to a penalty asks for one.
 bool asks_for_penalty(const Options& options) {
@@ -25,7 +19,7 @@ bool asks_for_penalty(const Options& options) {
 }  // namespace
 
 drive::Operation operation(const Options& options, const Drive& drive) {
-  drive::Operation how{analysis_of(options)};
+  drive::Operation how{static_cast<drive::Analysis>(options.choice("analysis", model::analysis_names()))};
   const double sense = drive_start(options).coasts ? -1 : 1;
   how.torque = sense * options.number("torque");
   how.speed = sense * options.number("speed");

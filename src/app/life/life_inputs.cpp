@@ -27,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Provenance = std::map<std::string, std::string>;
-
 bool is_stress_file(const std::string& file) {
   const std::string format = io::file_format(file);
   require(format == "elastogear stress" || format == "elastogear result", file, ": holds an ", format,
@@ -36,18 +34,17 @@ bool is_stress_file(const std::string& file) {
   return format == "elastogear stress";
 }
 
-// The torque of a run by its options, < 0 on the coast side.
-double torque_of(const std::string& file, const Provenance& provenance) {
-  const auto found = provenance.find("option_torque");
-  const auto torque = found == provenance.end() ? std::nullopt : parse<double>(found->second);
-  require(torque && std::isfinite(*torque) && *torque != 0, file,
+// The torque of a run, < 0 on the coast side.
+double torque_of(const std::string& file) {
+  const auto input = io::read_run_input(file);
+  require(input && input->drive && input->drive->torque != 0, file,
           ": does not say the torque of its run; give it by -file_torques");
-  const auto side = provenance.find("option_side");
-  return side != provenance.end() && side->second == "coast" ? -*torque : *torque;
+  return input->drive->torque;
 }
 
 SweptTorque of_file(const std::string& file, const double* torque) {
-  return {file, torque ? *torque : torque_of(file, io::read_provenance(file)), is_stress_file(file)};
+  const bool recovered = is_stress_file(file);
+  return {file, torque ? *torque : torque_of(file), recovered};
 }
 
 // Commas between quotes belong to a field.

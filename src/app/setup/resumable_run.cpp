@@ -64,11 +64,11 @@ bool is_without_effect(const std::string& key) {
                      [&](const std::string& name) { return key == "option_" + name; });
 }
 
-// Returns whether results depend on an entry of the provenance. A shared file has keys of other verbs as
-// well.
-bool has_effect(const Options& options, const std::string& key) {
-  return !is_without_effect(key) &&
-         !options.is_of_other_verb(key.starts_with("option_") ? key.substr(7) : key);
+// The option that an entry of the provenance is, or its key; "" where results do not depend on it. A shared
+// file has keys of other verbs as well.
+std::string input_name(const Options& options, const std::string& key) {
+  const std::string name = key.starts_with("option_") ? key.substr(7) : key;
+  return is_without_effect(key) || options.is_of_other_verb(name) ? "" : name;
 }
 
 using dynamics::ResumableSettings;
@@ -103,7 +103,7 @@ dynamics::ResumableSettings resumable_settings(const Options& options, const std
   ResumableSettings settings;
   settings.output = output;
   read_rows(options, kRows, settings);
-  settings.has_effect = [&options](const std::string& key) { return has_effect(options, key); };
+  settings.input_name = [&options](const std::string& key) { return input_name(options, key); };
   settings.on_replace = [output](const std::string& differences) {
     print_item("begun anew", output + ".partial held a run of other input: " + differences);
   };

@@ -5,6 +5,7 @@
 
 #include "app/console/console.h"
 #include "app/gear/bearing_options.h"
+#include "app/gear/drive_options.h"
 #include "app/gear/drive_system.h"
 #include "app/options/rows.h"
 #include "app/setup/resumable_run.h"
@@ -103,9 +104,21 @@ SystemSetup system_setup(const Options& options, const Drive* drive, KnownBodies
   return setup;
 }
 
-model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,
-                                  const KnownBodies& known) {
+model::RunInput run_input(const Options& options, const Drive* drive) {
+  model::RunInput input;
+  if (drive) input = drive::run_input(*drive, operation(options, *drive), drive_start(options).roll);
+  input.analysis = static_cast<model::Analysis>(options.choice("analysis", model::analysis_names()));
+  input.creeps = input.analysis == model::Analysis::equilibrium && options.given("time_under_load") &&
+                 options.number("time_under_load") > 0;
+  for (const std::string& body : options.list("bodies"))
+    if (options.given(body + "_deviation")) input.inexact.push_back(body);
+  return input;
+}
+
+model::ResultHeader result_header(const Options& options, const Drive* drive,
+                                  const dynamics::SystemModel& system, const KnownBodies& known) {
   model::ResultHeader header = dynamics::result_header(system);
+  header.input = run_input(options, drive);
   for (auto& body : header.bodies) {
     const std::string file = body.name + "_file";
     body.file = options.given(file) ? options.text(file) : "";

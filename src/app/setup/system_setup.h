@@ -23,9 +23,12 @@ struct SystemSetup {
 /// the drive where no option says otherwise; null: there is none.
 SystemSetup system_setup(const Options& options, const Drive* drive, KnownBodies& known);
 
-/// The header of its result file, with files of the bodies and provenance.
-model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,
-                                  const KnownBodies& known);
+/// What its result file says of the run that the options ask for.
+model::RunInput run_input(const Options& options, const Drive* drive);
+
+/// The header of its result file, with files of the bodies, provenance and input of the run.
+model::ResultHeader result_header(const Options& options, const Drive* drive,
+                                  const dynamics::SystemModel& system, const KnownBodies& known);
 
 /// Prints the moduli of viscoelastic bodies and the law of each pair, and warns of options without effect on
 /// it.

@@ -17,6 +17,7 @@
 #include "app/sweep/sweep_options.h"
 #include "app/sweep/sweep_results.h"
 #include "app/sweep/work_queue.h"
+#include "app/tables/contact_options.h"
 #include "app/tables/marker_options.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
@@ -78,7 +79,7 @@ PreparedCase prepare(SweepJob& job, std::size_t number) {
   const dynamics::SlowMotion& motion = prepared.motion;
   prepared.motion.prepared = dynamics::prepare(motion);
   const dynamics::SystemModel& model = motion.prepared->model();
-  prepared.header = result_header(prepared.options, model, job.known);
+  prepared.header = result_header(prepared.options, &drive, model, job.known);
   if (number == 0) print_laws(prepared.options, model);
   return prepared;
 }
@@ -213,6 +214,16 @@ void compute_all(SweepJob& job, const std::vector<SweepUnit>& todo,
   });
 }
 
+// Makes the header of the first case that of another one, of these options.
+void take_input(const Options& own, model::ResultHeader& header) {
+  const Silence silence;
+  const Drive drive = drive_at_zero(own);
+  const Options all = with_system(own, drive);
+  header.input = run_input(all, &drive);
+  const std::vector<dynamics::PairSetup> pairs = pair_setups(all, all.list("bodies"));
+  for (std::size_t p = 0; p < pairs.size(); ++p) header.pairs[p].friction = pairs[p].settings.friction.mu;
+}
+
 // Joins the units on rank 0.
 SweepFound write_results(SweepJob& job, const PreparedCase& first) {
   SweepFound all;
@@ -227,6 +238,7 @@ SweepFound write_results(SweepJob& job, const PreparedCase& first) {
                     own = of_case(job.options, job.cases, job.cases.cases[i]);
       for (const auto& entry : begun.provenance()) header.provenance.erase(entry.first);
       for (const auto& [key, value] : own.provenance()) header.provenance[key] = value;
+      take_input(own, header);
     }
     const SweepFound found = write_case(job.file(i), header, job.store, units);
     files.push_back(found.positions > 0 ? fs::path(job.file(i)).filename().string() : "");

@@ -79,7 +79,7 @@ void write_sensor_tables(const Options& options, const model::ResultHeader& head
   if (!options.flag("sensor_csv")) return;
   const std::string output = options.text("output");
   const Eigen::VectorXd time = io::read_times(output);
-  const io::TimeAxis axis = io::time_axis(header.provenance);
+  const io::TimeAxis axis = io::time_axis(header.input);
   for (const std::string& sensor : header.sensors) {
     const io::SensorHistory history = io::read_sensor_history(output, sensor);
     std::vector<io::CsvColumn> columns = {{axis.name, axis.unit, time}};

@@ -148,6 +148,17 @@ void set_restraint(const Options& options, ReductionOptions& o) {
     o.frame_at_center = word ? options.choice("frame", {"mesh", "centre_of_mass"}) == 1 : o.floating;
 }
 
+// Options of SLEPc that say how eigenmodes are found.
+std::map<std::string, std::string> solver_options(const Options& options) {
+  std::map<std::string, std::string> solver;
+  for (const auto& [key, value] : options.provenance()) {
+    const std::string name = key.starts_with("option_") ? key.substr(7) : "";
+    const bool finds = name.starts_with("eps_") || name.starts_with("st_");
+    if (finds && !name.starts_with("eps_monitor") && !name.starts_with("eps_view")) solver[name] = value;
+  }
+  return solver;
+}
+
 }  // namespace
 
 OptionTable reduce_table() {
@@ -170,6 +181,7 @@ ReductionOptions reduction_options(const Options& options) {
   o.window = window(options);
   if (o.window == 0) o.symmetry = reduction::Symmetry::none;
   o.provenance = options.provenance();
+  o.solver = solver_options(options);
   return o;
 }
 

@@ -5,14 +5,20 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
-#include "app/evaluate/drive_run.h"
+#include "app/console/plausibility.h"
+#include "app/evaluate/cases.h"
+#include "app/evaluate/evaluate_options.h"
 #include "app/evaluate/evaluate_tables.h"
 #include "app/evaluate/mesh_errors.h"
+#include "app/gear/bearing_options.h"
 #include "app/gear/drive_options.h"
 #include "app/options/verbs.h"
+#include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/text.h"
@@ -36,6 +42,13 @@ std::string tables_stem(const EvaluateSettings& settings, const CaseFigures& of,
   return stem_of(settings.output) + (several ? "_" + of.of.name : "") + "_" + with_underscores(pair);
 }
 
+// A drive whose results are evaluated, and how.
+struct Task {
+  const Options& options;
+  EvaluateSettings settings;
+  drive::DriveOfResults drive;
+};
+
 // One case with what evaluation gives besides items, by pair.
 struct Evaluated {
   CaseFigures figures;
@@ -50,7 +63,7 @@ std::string no_orders(const evaluation::PairOfRun& run) {
              : ": no orders: the roll angles are not even positions that fill whole pitches";
 }
 
-void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
+void add_bearing(const evaluation::PairOfRun& run, const drive::BearingOfRun& bearing,
                  std::vector<io::EvaluationItem>& items) {
   const std::string group = "bearings/" + bearing.name + "/";
   items.push_back({group + "gear", "1", "gear that it supports", {1}, {}, {bearing.gear}});
@@ -90,19 +103,35 @@ void require_unloaded(const Options& options, const Case& of) {
           " N m: name one under at most ", 100 * kLeastTorque, " % of the torque");
 }
 
-Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
-                        const std::map<std::string, Eigen::VectorXd>& unloaded) {
-  CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
-  if (!unloaded.empty()) require_unloaded(of.options, of_case);
+drive::DriveResult open_result(const Task& task, const std::string& file) {
+  drive::DriveResult result = drive::open_result(file, task.settings.read);
+  require_input(task.options, file);
+  return result;
+}
+
+void warn_of_roots(const Task& task, const drive::DriveResult& result, const drive::DriveRun& run) {
+  std::set<std::string> done;
+  for (const drive::NamedPair& pair : run.pairs)
+    for (const auto& root : pair.run.root)
+      if (root && done.insert(root->body).second)
+        warn_of_strain(*root, drive::body_file(task.drive, result, root->body));
+}
+
+Evaluated evaluate_case(const Task& task, drive::BodyFiles& bodies, const Case& of_case,
+                        const drive::TransmissionErrors& unloaded) {
+  const drive::DriveResult result = open_result(task, of_case.file);
+  drive::DriveRun run = drive::read_result(task.drive, task.settings.read, result, bodies, unloaded);
+  warn_of_roots(task, result, run);
+  if (!unloaded.empty()) require_unloaded(task.options, of_case);
   Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
-  for (const NamedPair& pair : run.pairs) {
+  for (const drive::NamedPair& pair : run.pairs) {
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
     evaluated.width.push_back(evaluation::common_width(pair.run));
     evaluated.figures.pairs.push_back({pair.name, evaluated.pairs.back().items});
     if (!find_item(evaluated.pairs.back().items, "transmission_error/order"))
       evaluated.figures.notes.push_back(pair.name + no_orders(pair.run));
   }
-  for (const BearingOfRun& bearing : run.bearings)
+  for (const drive::BearingOfRun& bearing : run.bearings)
     add_bearing(run.pairs[0].run, bearing, evaluated.figures.bearings);
   constexpr const char* kAxis[] = {"x", "y", "z"};
   for (const auto& [sensor, a] : run.sensors)
@@ -243,7 +272,7 @@ std::string without_number(std::string name) {
 }
 
 // Gears whose names differ in their numbers alone and that are equal, between the same mates.
-std::map<std::string, std::string> kinds_of(const Drive& drive) {
+std::map<std::string, std::string> kinds_of(const drive::Drive& drive) {
   using Likeness = std::pair<std::string, std::vector<double>>;
   std::map<Likeness, std::vector<std::string>> alike;
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
@@ -271,12 +300,11 @@ std::string finer_size(const Options& options) {
   return "";
 }
 
-void print_all(const DriveOfRun& of, const std::vector<CaseFigures>& figures) {
+void print_all(const Task& task, const std::vector<CaseFigures>& figures) {
   if (figures.size() > 1) return print_cases(figures);
   if (is_verbose()) return print_figures(figures[0]);
-  const bool drives = of.options.choice("side", {"drive", "coast"}) == 0;
-  print_case_in_short(figures[0], {kinds_of(of.drive), drives ? "drive" : "coast", finer_size(of.options),
-                                   !of.settings.coarser.empty()});
+  print_case_in_short(figures[0], {kinds_of(task.drive.drive), task.drive.coasts ? "coast" : "drive",
+                                   finer_size(task.options), !task.settings.coarser.empty()});
 }
 
 OptionTable all_evaluate_options() {
@@ -293,24 +321,34 @@ std::vector<std::string> gears_and_bodies(const Options& options) {
   return names;
 }
 
+Task task_of(const Options& options) {
+  Options at_zero = options;
+  at_zero.set("roll", "0");
+  Task task{options, evaluate_settings(options), {read_drive(at_zero), drive_start(options).coasts}};
+  for (const DriveMember& member : task.drive.drive.members)
+    task.drive.bearings.push_back(bearings(options, member));
+  task.drive.body_file = task.settings.body_file;
+  return task;
+}
+
 void run_evaluate(const Options& given, const std::vector<std::string>&) {
   require_drive(given, "evaluate");
   const Options options = with_evaluation(with_gears(given));
   options.reject_unknown({{"body", gears_and_bodies(options)}});
-  Options at_zero = options;
-  at_zero.set("roll", "0");
-  const DriveOfRun of{options, read_drive(at_zero), evaluate_settings(options)};
-  const std::vector<Case> all = read_cases(of.settings.result);
-  protect(options, of.settings, all);
-  const OutputLock lock(of.settings.output, PETSC_COMM_SELF);
+  const Task task = task_of(options);
+  const EvaluateSettings& settings = task.settings;
+  const std::vector<Case> all = read_cases(settings.result);
+  protect(options, settings, all);
+  const OutputLock lock(settings.output, PETSC_COMM_SELF);
   const Progress progress = console_progress();
-  Bodies bodies;
-  std::map<std::string, Eigen::VectorXd> unloaded;
-  if (!of.settings.unloaded.empty()) unloaded = transmission_errors(of, bodies, of.settings.unloaded);
+  drive::BodyFiles bodies;
+  drive::TransmissionErrors unloaded;
+  if (!settings.unloaded.empty())
+    unloaded = drive::transmission_errors(task.drive, open_result(task, settings.unloaded), bodies);
   std::vector<Evaluated> cases;
   for (const Case& of_case : all) {
     report(progress, "cases", static_cast<double>(cases.size()) / static_cast<double>(all.size()));
-    cases.push_back(evaluate_case(of, bodies, of_case, unloaded));
+    cases.push_back(evaluate_case(task, bodies, of_case, unloaded));
   }
   report(progress, "cases", 1);
   for (Evaluated& one : cases) {
@@ -319,9 +357,9 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
   }
   std::vector<CaseFigures> figures;
   for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
-  add_mesh_errors(of.settings.coarser, options.positive("refinement"), figures);
-  print_all(of, figures);
-  write_all(options, of.settings, figures);
+  add_mesh_errors(settings.coarser, options.positive("refinement"), figures);
+  print_all(task, figures);
+  write_all(options, settings, figures);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -112,8 +113,9 @@ std::map<std::string, std::string> provenance_of_stresses(const Options& options
 void write_stresses(const Options& options, const RecoverSettings& settings, Run& run,
                     const Progress& progress) {
   const LogStage stage("stresses");
-  const StressTimes times{run.time, io::time_axis(io::read_provenance(settings.result))};
-  io::StressFile file{run.time, {}, provenance_of_stresses(options, settings.result)};
+  const std::optional<model::RunInput> input = io::read_run_input(settings.result);
+  const StressTimes times{run.time, io::time_axis(input)};
+  io::StressFile file{run.time, {}, provenance_of_stresses(options, settings.result), input};
   std::vector<const RecoveredBody*> owner;
   std::vector<std::string> without;
   double done = 0;

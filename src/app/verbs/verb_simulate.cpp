@@ -38,18 +38,16 @@
 namespace elastogear::app {
 namespace {
 
-enum class Analysis { dynamic, equilibrium, relax, sweep };
-
 struct AnalysisSettings {
-  Analysis kind = Analysis::dynamic;
+  model::Analysis kind = model::Analysis::motion;
   int static_steps = 10;
   double time_under_load = 0;  // s
 };
 
-using dynamics::Environment, dynamics::TimeSettings;
+using dynamics::Environment, dynamics::TimeSettings, model::Analysis;
 
 const Rows<AnalysisSettings> kAnalysisRows = {
-    {"analysis", &AnalysisSettings::kind, one_of("dynamic", "static", "relax", "sweep"),
+    {"analysis", &AnalysisSettings::kind, model::analysis_names(),
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor, "
      "or s under load); "
      "relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests; or "
@@ -116,7 +114,7 @@ constexpr double kDamped = 0.8;
 // steps (docs/theory, section 8.7): the default of rest_tolerance is larger then.
 TimeSettings time_settings(const Options& options) {
   TimeSettings time;
-  time.relax = analysis(options) == Analysis::relax;
+  time.relax = analysis(options) == Analysis::relaxation;
   if (time.relax)
     time.rho_inf = 0;
   else if (!options.given("ts_dt"))
@@ -157,7 +155,7 @@ void warn_of_balance(const dynamics::RunSummary& run) {
                             "resolve, by impacts, or by instability; try a smaller step_error or ts_dt");
 }
 
-void print_summary(const Options& options, const dynamics::SystemModel& system,
+void print_summary(const Options& options, const dynamics::SystemModel& system, const io::TimeAxis& axis,
                    const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
@@ -165,7 +163,6 @@ void print_summary(const Options& options, const dynamics::SystemModel& system,
     print_item("steps are chosen", with_unit(run.time / std::max(run.steps, 1), "s") +
                                        " in the mean, local error at most " +
                                        with_unit(run.step_tolerance, "m"));
-  const io::TimeAxis axis = io::time_axis(options.provenance());
   print_item("Newton iterations", std::to_string(run.newton_iterations));
   for (const dynamics::PairSummary& pair : run.pair)
     print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
@@ -174,18 +171,18 @@ void print_summary(const Options& options, const dynamics::SystemModel& system,
   warn_of_idle_pairs(run);
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
   print_resolution(options, system, run);
-  if (analysis(options) == Analysis::relax)
+  if (analysis(options) == Analysis::relaxation)
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
-  if (analysis(options) == Analysis::dynamic)
+  if (analysis(options) == Analysis::motion)
     print_item("energy at the start", with_unit(run.initial_energy, "J"));
   if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
   if (run.unbalanced > 0)
     print_item("unbalanced", with_unit(100 * run.unbalanced, "%") +
                                  " of the forces at most, where the active set of contact chatters");
-  if (analysis(options) != Analysis::relax)
+  if (analysis(options) != Analysis::relaxation)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
-  if (analysis(options) == Analysis::dynamic) warn_of_balance(run);
+  if (analysis(options) == Analysis::motion) warn_of_balance(run);
   print_item("time", duration(run.wall_time));
   print_item("largest memory", largest_memory());
   print_item("written", options.text("output"));
@@ -218,7 +215,7 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
                                     guarded(system, observer), console_progress(), checkpoints.stop);
     };
   TimeSettings time = time_settings(options);
-  if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
+  if (analysis(options) == Analysis::motion) print_advice(system, time.dt);
   auto info = std::make_shared<dynamics::StepInfo>();
   time.monitor = paced(time, [info](const dynamics::StepInfo& step) { *info = step; });
   return [&system, time, info](const auto& observer, const auto& checkpoints) {
@@ -275,7 +272,7 @@ std::unique_ptr<dynamics::System> make_system(const Options& given, Analysis kin
   dynamics::SystemModel model =
       dynamics::make_system_model(setup.bodies, setup.pairs, setup.environment, setup.markers);
   if (kind != Analysis::equilibrium) require_modes_of(setup.bodies);
-  const auto still = kind == Analysis::dynamic ? begin_loaded(given, known, model) : nullptr;
+  const auto still = kind == Analysis::motion ? begin_loaded(given, known, model) : nullptr;
   return still ? std::make_unique<dynamics::System>(std::move(model), *still)
                : std::make_unique<dynamics::System>(std::move(model));
 }
@@ -304,10 +301,11 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
 
   const auto made = make_system(given, analysis(options), setup, known);
   dynamics::System& system = *made;
-  const model::ResultHeader head = result_header(options, system.model(), known);
+  const model::ResultHeader head = result_header(options, input.drive_or_null(), system.model(), known);
   print_laws(options, system.model());
   stage.emplace(analysis(options) == Analysis::equilibrium ? "equilibria" : "motion");
-  print_summary(options, system.model(), keep(options, head, computation(options, system)));
+  print_summary(options, system.model(), io::time_axis(head.input),
+                keep(options, head, computation(options, system)));
   add_relaxed_states(output, system, analysis_settings(options).time_under_load > 0);
   write_sensor_tables(options, head);
 }
@@ -356,14 +354,14 @@ PreparedSimulation prepare_simulation(const Options& given, const MakeLaws& make
   const Options& options = input.options;
   require_known(input);
   const Analysis kind = analysis(options);
-  require(kind == Analysis::dynamic || kind == Analysis::relax, options.label("analysis"), " = '",
+  require(kind == Analysis::motion || kind == Analysis::relaxation, options.label("analysis"), " = '",
           options.text("analysis"), "': has no time steps; give analysis: dynamic or relax");
   TimeSettings time = time_settings(options);
   KnownBodies known;
   SystemSetup setup = system_setup(options, input.drive_or_null(), known);
   set_laws(make_laws(options.list("loads")), setup);
   PreparedSimulation prepared{make_system(motion, kind, setup, known), time, {}};
-  prepared.header = result_header(options, prepared.system->model(), known);
+  prepared.header = result_header(options, input.drive_or_null(), prepared.system->model(), known);
   print_laws(options, prepared.system->model());
   return prepared;
 }

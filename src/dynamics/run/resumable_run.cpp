@@ -8,7 +8,6 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr std::string_view kOption = "option_";  // beginning of the keys of options in the provenance
 constexpr const char* kRemedy = "; -resume discard begins anew";
 
 // Null where there is none. What is there may be of another version of the program, or damaged.
@@ -99,8 +98,8 @@ std::string differences(const ResumableSettings& settings, const Provenance& now
   all.insert(then.begin(), then.end());
   for (const auto& [key, unused] : all) {
     const std::string a = value(now, key), b = value(then, key);
-    if (a == b || (settings.has_effect && !settings.has_effect(key))) continue;
-    const std::string name = key.starts_with(kOption) ? key.substr(kOption.size()) : key;
+    const std::string name = settings.input_name ? settings.input_name(key) : key;
+    if (a == b || name.empty()) continue;
     text.append(text.empty() ? "" : ", ").append(name).append(" ").append(a);
     text.append(" (was ").append(b).append(")");
   }

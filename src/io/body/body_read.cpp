@@ -176,6 +176,8 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   body.provenance = h5::read_map(file, "/provenance");
   body.M_r = read_square(file, "/reduced/M");
   body.K_r = read_square(file, "/reduced/K");
+  body.assembled_K = h5::has_attribute(file, "/", kAssembledK) && read_flag(file, "/", kAssembledK);
+  body.assembled_M = h5::has_attribute(file, "/", kAssembledM) && read_flag(file, "/", kAssembledM);
   body.alpha = h5::number_attribute(file, "/reduced", "alpha");
   body.beta = h5::number_attribute(file, "/reduced", "beta");
   if (body.basis == Basis::modal) {

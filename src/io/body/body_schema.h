@@ -69,6 +69,7 @@ inline model::Element parse_element(const std::string& path, const std::string& 
 /// Attribute of the file: whether the mass of incompatible hex8 has their modes. Files without it do not.
 inline constexpr const char* kAttachments = "attachments";
 inline constexpr const char* kElementMass = "element_mass";
+inline constexpr const char *kAssembledK = "assembled_stiffness", *kAssembledM = "assembled_mass";
 
 inline std::string element_mass_name(model::ElementMass mass) {
   return mass == model::ElementMass::compatible ? "compatible" : "condensed";

@@ -219,6 +219,8 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   h5::set_attribute(file, "/", "restraint", std::string(body.floating ? "none" : "nodes"));
   h5::set_attribute(file, "/", "element", element_name(source.element));
   h5::set_attribute(file, "/", kElementMass, element_mass_name(source.element_mass));
+  h5::set_attribute(file, "/", kAssembledK, body.assembled_K ? 1 : 0);
+  h5::set_attribute(file, "/", kAssembledM, body.assembled_M ? 1 : 0);
   h5::write_map(file, "/provenance", body.provenance);
   write_modes(file, body);
   write_checks(file, checks);

@@ -74,7 +74,7 @@ void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& ti
 void describe_result(Out& out, const std::string& path) {
   const model::ResultHeader header = read_result_header(path);
   const Eigen::VectorXd time = read_times(path);
-  const TimeAxis axis = time_axis(header.provenance);
+  const TimeAxis axis = time_axis(header.input);
   describe_times(out, path, time, axis);
   if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
   const h5::File file = open_format(path, kResultFormat);
@@ -112,7 +112,7 @@ void describe_evaluation(Out& out, const std::string& path) {
 
 void describe_stress(Out& out, const std::string& path) {
   const StressFile history = read_stress(path);
-  const TimeAxis axis = time_axis(history.provenance);
+  const TimeAxis axis = time_axis(history.input);
   describe_times(out, path, history.time, axis);
   for (const StressSet& set : history.sets) {
     line(out, "stress of ", set.body, "/", set.set, ": ", counted(set.node.size(), "node"), ", body frame");

@@ -22,6 +22,13 @@ h5::File open_format(const std::string& path, const Format& format) {
   return file;
 }
 
+bool read_flag(const h5::File& file, const std::string& object, const std::string& key) {
+  const std::vector<int> flag = h5::int_attribute(file, object, key);
+  require(flag.size() == 1 && (flag[0] == 0 || flag[0] == 1), file.path, ": ", object, ": attribute ", key,
+          " must be 0 or 1");
+  return flag[0] == 1;
+}
+
 void require_name(const h5::File& file, const std::string& name) {
   require(!name.empty() && name != "." && name.find('/') == std::string::npos, file.path, ": the name '",
           name, "' cannot be stored: it must not be empty, '.' or hold a slash");

@@ -28,6 +28,9 @@ int version(const h5::File& file);
 /// Opens a file. Error when it has another format, or a version that this program does not know.
 h5::File open_format(const std::string& path, const Format& format);
 
+/// An attribute that is 0 or 1. Error for other values.
+bool read_flag(const h5::File& file, const std::string& object, const std::string& key);
+
 /// Names in HDF5 paths; Error when empty or with a slash.
 void require_name(const h5::File& file, const std::string& name);
 

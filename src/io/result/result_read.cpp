@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
-#include "elastogear/base/number.h"
 #include "elastogear/io/result_file.h"
 #include "io/hdf5/schema.h"
 #include "io/result/contact_forces.h"
 #include "io/result/result_rows.h"
+#include "io/result/run_input.h"
 
 namespace elastogear::io {
 namespace {
@@ -85,6 +86,13 @@ int read_strips(const h5::File& file, const std::string& group) {
   return strips[0];
 }
 
+double read_friction(const h5::File& file, const std::string& group) {
+  const double friction = h5::number_attribute(file, group, "friction");
+  require(std::isfinite(friction) && friction >= 0, file.path, ": ", group,
+          ": attribute friction = ", friction, ", must be at least 0");
+  return friction;
+}
+
 model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& name, std::size_t n_bodies) {
   const std::string group = "/contact/" + name;
   model::ResultHeader::Pair pair;
@@ -93,6 +101,7 @@ model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& nam
   require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
   if (h5::has_attribute(file, group, "law")) pair.law = h5::string_attribute(file, group, "law");
   if (h5::has_attribute(file, group, "strips")) pair.strips = read_strips(file, group);
+  if (h5::has_attribute(file, group, "friction")) pair.friction = read_friction(file, group);
   for (int side : {0, 1}) {
     require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
             " names body ", body[side], " of ", n_bodies);
@@ -115,6 +124,7 @@ model::ResultHeader read_result_header(const std::string& path) {
     header.pairs.push_back(read_pair(file, name, header.bodies.size()));
   if (h5::exists(file, "/bushings")) header.bushings = in_order(file, "/bushings");
   if (h5::exists(file, "/sensors")) header.sensors = in_order(file, "/sensors");
+  header.input = read_run_input(file);
   return header;
 }
 
@@ -123,12 +133,10 @@ bool is_complete(const std::string& path) {
   return !h5::has_attribute(file, "/", "complete") || h5::int_attribute(file, "/", "complete").front() != 0;
 }
 
-TimeAxis time_axis(const std::map<std::string, std::string>& provenance) {
-  const auto analysis = provenance.find("option_analysis");
-  if (analysis != provenance.end() && analysis->second == "sweep") return {"roll angle", "pitches"};
-  const auto under_load = provenance.find("option_time_under_load");
-  const bool creeps = under_load != provenance.end() && parse<double>(under_load->second).value_or(1) > 0;
-  if (analysis != provenance.end() && analysis->second == "static" && !creeps) return {"load factor", "1"};
+TimeAxis time_axis(const std::optional<model::RunInput>& input) {
+  const model::RunInput run = input.value_or(model::RunInput{});
+  if (run.analysis == model::Analysis::sweep) return {"roll angle", "pitches"};
+  if (run.analysis == model::Analysis::equilibrium && !run.creeps) return {"load factor", "1"};
   return {"time", "s"};
 }
 

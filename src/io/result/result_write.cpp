@@ -3,6 +3,7 @@
 #include "io/hdf5/schema.h"
 #include "io/result/result_parts.h"
 #include "io/result/result_rows.h"
+#include "io/result/run_input.h"
 
 namespace elastogear::io {
 namespace {
@@ -21,6 +22,7 @@ void write_names(const h5::File& file, const std::string& group, const std::vect
 void write_header(const h5::File& file, const model::ResultHeader& header) {
   write_format(file, kResultFormat);
   h5::write_map(file, "/provenance", header.provenance);
+  write_run_input(file, header.input);
   h5::make_group(file, "/bodies");
   for (std::size_t i = 0; i < header.bodies.size(); ++i) {
     const auto& body = header.bodies[i];
@@ -40,6 +42,7 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
     h5::set_attribute(file, group, "body", std::vector{pair.body[0], pair.body[1]});
     if (!pair.law.empty()) h5::set_attribute(file, group, "law", pair.law);
     if (pair.strips > 0) h5::set_attribute(file, group, "strips", pair.strips);
+    h5::set_attribute(file, group, "friction", pair.friction);
     for (int side : {0, 1})
       h5::write_strings(file, group + "/groups/" + kSide[side] + "/name", pair.group_name[side]);
   }

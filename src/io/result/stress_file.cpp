@@ -6,6 +6,7 @@
 #include "elastogear/base/file.h"
 #include "elastogear/base/finite.h"
 #include "io/hdf5/schema.h"
+#include "io/result/run_input.h"
 
 namespace elastogear::io {
 namespace {
@@ -94,6 +95,7 @@ void write_stress(const std::string& path, const StressFile& history) {
   h5::File file = h5::create(path, pending.temporary());
   write_format(file, kStressFormat);
   h5::write_map(file, "/provenance", history.provenance);
+  write_run_input(file, history.input);
   h5::write<double>(file, "/time", view(history.time), "s");
   for (const StressSet& set : history.sets) {
     check(file, set, history.time.size());
@@ -109,6 +111,7 @@ StressFile read_stress(const std::string& path) {
   StressFile history;
   history.time = read_time(file);
   history.provenance = h5::read_map(file, "/provenance");
+  history.input = read_run_input(file);
   for (const std::string& body : h5::members(file, "/"))
     if (is_body(body))
       for (const std::string& set : h5::members(file, "/" + body))
