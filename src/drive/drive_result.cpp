@@ -60,6 +60,19 @@ void set_unloaded(const DriveResult& result, const TransmissionErrors& unloaded,
   }
 }
 
+// Of gears with teeth that a sweep does not reach.
+void note_other_teeth(const DriveOfResults& of, const evaluation::PairOfRun& pair,
+                      std::vector<std::string>& notes) {
+  const double rolled = pair.roll.size() > 1 ? pair.roll.maxCoeff() - pair.roll.minCoeff() : 0,
+               step = pair.roll.size() > 1 ? rolled / static_cast<double>(pair.roll.size() - 1) : 0;
+  for (const Member& member : of.drive.members)
+    if (member.deviations && gear::teeth_differ(*member.deviations) &&
+        rolled + step < (1 - 1e-6) * member.toothing.z)
+      notes.push_back(member.name +
+                      ": its teeth differ, and not all of them are in mesh here: figures are those of some "
+                      "teeth, and no orders of the mesh; sweep_pitches: hunting rolls over all");
+}
+
 }  // namespace
 
 const model::ElasticBody& BodyFiles::get(const std::string& file, const std::string& body,
@@ -131,6 +144,8 @@ DriveRun read_result(const DriveOfResults& of, const ReadSettings& settings, con
         pair.run.root[g] = set->second;
     run.pairs.push_back(std::move(pair));
   }
+  if (result.analysis != Analysis::motion && !run.pairs.empty())
+    note_other_teeth(of, run.pairs.front().run, run.notes);
   run.bearings = read_bearings(of, result);
   require(!run.pairs.empty(), result.path, ": holds no pair of bodies in contact");
   if (result.analysis == Analysis::motion)
@@ -141,11 +156,16 @@ DriveRun read_result(const DriveOfResults& of, const ReadSettings& settings, con
   return run;
 }
 
+bool touches_always(const evaluation::PairOfRun& pair) {
+  return (pair.force.colwise().squaredNorm().array() > 0).all();
+}
+
 TransmissionErrors transmission_errors(const DriveOfResults& of, const DriveResult& result,
                                        BodyFiles& bodies) {
   TransmissionErrors errors;
-  for (const auto& pair : result.header.pairs)
-    errors[pair.name] = evaluation::transmission_error(read_pair(of, result, pair, bodies));
+  for (const auto& named : result.header.pairs)
+    if (const evaluation::PairOfRun pair = read_pair(of, result, named, bodies); touches_always(pair))
+      errors[named.name] = evaluation::transmission_error(pair);
   return errors;
 }
 

@@ -28,6 +28,7 @@ evaluation::Gear gear_of(const Member& member) {
   gear.ratio = member.ratio;
   gear.angle = member.angle;
   gear.R = rotation_matrix(member.rotation);
+  gear.origin = member.position;
   return gear;
 }
 

@@ -116,7 +116,14 @@ Eigen::VectorXd roll_of_run(const Gear& first, double roll) {
   return (continuous_angles(first, first.toothing.z, roll).array() - first.angle) / pitch(first);
 }
 
-double common_width(const PairOfRun& pair) { return std::min(pair.gear[0].width, pair.gear[1].width); }
+double common_width(const PairOfRun& pair) {
+  constexpr double kParallel = 0.99;  // cosine of the angle between axes
+  const Gear &a = pair.gear[0], &b = pair.gear[1];
+  const double narrower = std::min(a.width, b.width);
+  if (std::abs(a.R.col(2).dot(b.R.col(2))) < kParallel) return narrower;
+  const double offset = std::abs((b.origin - a.origin).dot(a.R.col(2)));
+  return std::min(narrower, (a.width + b.width) / 2 - offset);
+}
 
 std::vector<io::EvaluationItem> spectrum_items(const PairOfRun& pair, const std::string& path,
                                                const Eigen::VectorXd& signal, const std::string& unit) {

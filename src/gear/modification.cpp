@@ -95,6 +95,21 @@ void check(const std::string& name, const FlankModification& m, double profile, 
 
 }  // namespace
 
+bool teeth_differ(const FlankDeviations& d) {
+  return d.index.any() || d.eccentricity.any() ||
+         std::any_of(d.topography.begin(), d.topography.end(), [](const auto& t) { return t.tooth >= 0; });
+}
+
+bool are_exact(const FlankDeviations& d) {
+  const auto is_exact = [](const FlankModification& m) {
+    const double amounts[] = {m.tip.amount, m.root.amount, m.end.amount, m.C_alpha,
+                              m.C_Halpha,   m.C_beta,      m.C_Hbeta,    m.S_alpha};
+    return std::all_of(std::begin(amounts), std::end(amounts), [](double amount) { return amount == 0; });
+  };
+  return is_exact(d.left) && is_exact(d.right) && !d.index.any() && !d.eccentricity.any() &&
+         d.topography.empty();
+}
+
 double length_of_roll(const Toothing& t, double r) { return std::sqrt(std::max(0.0, r * r - t.r_b * t.r_b)); }
 
 double profile_length(const Toothing& t) {

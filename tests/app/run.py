@@ -158,6 +158,16 @@ def main():
         for verb in (("reduce",), ("simulate", "-analysis", "sweep"), ("evaluate",)):
             run(verb[0], "drive.yaml", *verb[1:])
         assert figures() == first, "the verbs give others"
+        # What another command line has said is not said by this one.
+        run("drive.yaml", "-torque", "30 N m")
+        assert re.search("by the command line of simulate torque 30 N m for 50 N m of the drive file", run("evaluate", "drive.yaml"))
+        assert made(run("drive.yaml")) == (False, True)
+        assert figures() == first
+        # An equilibrium at one roll angle is no sweep.
+        run("simulate", "drive.yaml")
+        assert "one roll angle alone" in run("evaluate", "drive.yaml")
+        assert made(run("drive.yaml")) == (False, True)
+        assert figures() == first
         write(torque="40 N m")
         assert made(run("drive.yaml")) == (False, True)
         assert figures() != first

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "elastogear/base/rotation.h"
 #include "elastogear/evaluation/contact.h"
+#include "elastogear/evaluation/evaluate.h"
 #include "evaluation/load/line_load.h"
 #include "rigid_drives.h"
 
@@ -54,6 +56,17 @@ TEST(Stations, show_an_even_load_on_the_common_face_as_even) {
       EXPECT_NEAR(at.z[at.n() - 1], z[z.size() - 1], 1e-15);
       EXPECT_GE(at.n(), 4);
     }
+}
+
+TEST(CommonWidth, is_where_both_faces_stand_beside_each_other_as_mounted) {
+  PairOfRun pair;
+  pair.gear[0].width = 15e-3, pair.gear[1].width = 12e-3;
+  pair.gear[1].origin = {0.1, 0, 1e-3};
+  EXPECT_DOUBLE_EQ(common_width(pair), 12e-3);
+  pair.gear[1].origin[2] = -5e-3;
+  EXPECT_DOUBLE_EQ(common_width(pair), 8.5e-3);
+  pair.gear[1].R = rotation_matrix(Eigen::Vector3d(1, 0, 0));
+  EXPECT_DOUBLE_EQ(common_width(pair), 12e-3);
 }
 
 TEST(Stations, along_either_axis_are_the_same_places) {

@@ -133,6 +133,18 @@ TEST_F(Modification, distances_lead_to_points_beside_the_exact_flank_by_the_devi
   EXPECT_NEAR(flank_distance_along(t, d, left, Vector3d(on - 0.1e-3 * n), n), 0.1e-3, 1e-12);
 }
 
+TEST_F(Modification, of_nothing_leaves_flanks_exact_and_teeth_alike) {
+  FlankDeviations none;
+  none.left.tip.length = 1e-3;
+  EXPECT_TRUE(are_exact(none));
+  EXPECT_FALSE(teeth_differ(none));
+  none.right.C_beta = 1e-6;
+  EXPECT_FALSE(are_exact(none));
+  EXPECT_FALSE(teeth_differ(none));
+  none.index = Eigen::VectorXd::Unit(t.z, 3) * 1e-6;
+  EXPECT_TRUE(teeth_differ(none));
+}
+
 TEST_F(Modification, refuses_amounts_and_lengths_that_no_flank_has) {
   check("wheel", t, d);
   const auto refused = [&](auto change) {

@@ -84,7 +84,10 @@ struct DriveRun {
   std::vector<std::string> notes;                  ///< what is not known, and why
 };
 
-/// Transmission errors by pair, m, at the roll angles of a result.
+/// Does force pass at every position or time?
+bool touches_always(const evaluation::PairOfRun& pair);
+
+/// Transmission errors by pair, m, at the roll angles of a result; of pairs that touch at all of them.
 using TransmissionErrors = std::map<std::string, Eigen::VectorXd>;
 
 /// unloaded: of the same roll angles; empty: not known, but for exact flanks in place. Throws Error where the

@@ -68,7 +68,8 @@ Eigen::VectorXd roll_of_run(const Gear& first, double roll);
 std::vector<io::EvaluationItem> spectrum_items(const PairOfRun& pair, const std::string& path,
                                                const Eigen::VectorXd& signal, const std::string& unit);
 
-/// Width of the narrower gear, m.
+/// m, over which the faces of both gears stand beside each other as they are mounted; where axes cross, width
+/// of the narrower gear.
 double common_width(const PairOfRun& pair);
 
 }  // namespace elastogear::evaluation

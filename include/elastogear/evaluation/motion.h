@@ -15,12 +15,13 @@ namespace elastogear::evaluation {
 struct Gear {
   std::string name;
   gear::Toothing toothing;
-  double width = 0;                                 ///< m, of its teeth, symmetric about z = 0
-  double ratio = 1;                                 ///< -, its speed over that of the drive's first gear
-  double angle = 0;                                 ///< rad, about its axis where the roll angle is 0
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< body to world at the angle 0
-  std::vector<Eigen::Vector3d> position;            ///< n_t, m, of the body frame in the world
-  std::vector<Eigen::Matrix3d> rotation;            ///< n_t, body to world
+  double width = 0;                                  ///< m, of its teeth, symmetric about z = 0
+  double ratio = 1;                                  ///< -, its speed over that of the drive's first gear
+  double angle = 0;                                  ///< rad, about its axis where the roll angle is 0
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();   ///< body to world at the angle 0
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, of the body frame in the world as it is mounted
+  std::vector<Eigen::Vector3d> position;             ///< n_t, m, of the body frame in the world
+  std::vector<Eigen::Matrix3d> rotation;             ///< n_t, body to world
   Eigen::VectorXd layers;  ///< m, z of the layers of corners of cells on its flanks, ascending
 
   Eigen::Vector3d axis(std::size_t step) const { return rotation[step].col(2); }

@@ -48,6 +48,11 @@ struct FlankDeviations {
   std::vector<Topography> topography;
 };
 
+/// Are all deviations zero?
+bool are_exact(const FlankDeviations& deviations);
+/// Do deviations differ from tooth to tooth?
+bool teeth_differ(const FlankDeviations& deviations);
+
 /// m, along the base tangent from the base circle to the radius r; 0 inside it.
 double length_of_roll(const Toothing& toothing, double r);
 

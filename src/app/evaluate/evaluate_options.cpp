@@ -48,15 +48,19 @@ EvaluateSettings evaluate_settings(const Options& options) {
   return settings;
 }
 
-Options with_evaluation(Options options, const std::string& folder) {
-  const std::string stem = (std::filesystem::path(folder) / drive_stem(options)).string(),
-                    cases = stem + "_result", file = cases + ".h5";
+std::string result_of_drive(const Options& options, const std::string& stem) {
+  const std::string file = stem + ".h5";
   const bool of_cases = sweeps_torques(options) || options.given("variants");
-  const bool several = std::filesystem::is_directory(cases) && (of_cases || !std::filesystem::exists(file));
+  const bool several = std::filesystem::is_directory(stem) && (of_cases || !std::filesystem::exists(file));
+  return several ? stem : file;
+}
+
+Options with_evaluation(Options options, const std::string& folder) {
+  const std::string stem = (std::filesystem::path(folder) / drive_stem(options)).string();
   const auto take = [&](const std::string& name, const std::string& value) {
     folder.empty() ? options.set_default(name, value) : options.set(name, value);
   };
-  take("result", several ? cases : file);
+  take("result", result_of_drive(options, stem + "_result"));
   take("output", stem + "_evaluation.h5");
   return options;
 }

@@ -25,6 +25,10 @@ OptionTable evaluate_table();
 
 EvaluateSettings evaluate_settings(const Options& options);
 
+/// The result of the drive whose path without .h5 is `stem`: the folder of cases where the options sweep over
+/// several torques or variants, or where there is no file.
+std::string result_of_drive(const Options& options, const std::string& stem);
+
 /// Options with the result and the output of the drive where nothing is given, or as `folder` has them.
 Options with_evaluation(Options options, const std::string& folder = "");
 

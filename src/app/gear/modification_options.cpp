@@ -240,6 +240,7 @@ std::optional<FlankDeviations> flank_deviations(const Options& options, const Dr
     if (!file.empty())
       for (Topography& more : read_topography(file, member)) deviations.topography.push_back(std::move(more));
   gear::check(member.name, member.toothing, deviations);
+  if (gear::are_exact(deviations)) return {};
   return deviations;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/evaluate/cases.h"
+#include "app/evaluate/evaluate_options.h"
 #include "app/evaluate/mesh_errors.h"
 #include "app/options/units.h"
 #include "app/setup/drive_input.h"
@@ -155,7 +156,8 @@ std::vector<SweptTorque> named_torques(const Options& options, const LifeSetting
   };
   if (!all.empty()) return refuse_variant(all.front().file), all;
   const std::string stem = drive_stem(options) + "_result", table = stem + "/cases.csv";
-  if (fs::exists(table)) return of_cases(options, table, settings.variant);
+  if (fs::exists(table) && result_of_drive(options, stem) == stem)
+    return of_cases(options, table, settings.variant);
   require(fs::exists(stem + ".h5"), stem, ".h5: there is no such file, nor ", table,
           ": sweep the drive first, elastogear simulate ", options.files().empty() ? "" : options.files()[0],
           " with analysis: sweep, or name result or stress files by -files");

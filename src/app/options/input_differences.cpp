@@ -15,7 +15,8 @@ namespace {
 
 using Entries = std::map<std::string, std::string>;
 
-constexpr std::string_view kOptionKey = "option_", kInFilesKey = "in_files_", kNotGiven = "not given";
+constexpr std::string_view kOptionKey = "option_", kInFilesKey = "in_files_",
+                           kCommandLineKey = "command_line_", kNotGiven = "not given";
 
 // Items of a list, without the brackets and blanks around them.
 std::vector<std::string> items_of(const std::string& text) {
@@ -102,14 +103,16 @@ std::vector<InputDifference> input_differences(const Options& now, const Entries
   std::vector<InputDifference> all;
   for (const std::string& name : names) {
     const Weight of = weight(name);
-    if (of == Weight::none || (of == Weight::of_files && !tells_files(then))) continue;
+    if (of == Weight::none || (of != Weight::always && !tells_files(then))) continue;
     const std::string otherwise = now.default_of(name);
     const Said here = said(mine, name, otherwise), there = said(then, name, otherwise);
     if (same_value(here.value, there.value)) continue;
-    const bool allowed =
-        of == Weight::of_files && !now.overrides_files(name) && same_value(here.in_files, there.in_files);
-    all.push_back(
-        {name, with_own_unit(now, name, there.value), with_own_unit(now, name, here.value), allowed});
+    const bool of_command_line = then.contains(std::string(kCommandLineKey) + name),
+               may_depart = of == Weight::of_files || (of == Weight::of_command && !of_command_line),
+               allowed =
+                   may_depart && !now.overrides_files(name) && same_value(here.in_files, there.in_files);
+    all.push_back({name, with_own_unit(now, name, there.value), with_own_unit(now, name, here.value), allowed,
+                   of_command_line});
   }
   add_changed_files(mine, then, all);
   return all;

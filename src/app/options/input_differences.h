@@ -11,14 +11,15 @@
 namespace elastogear::app {
 
 /// Weight of an option in a comparison. none: the file does not depend on it; of_files: the file belongs to
-/// what input files say, from which the command line that made it may have departed; always: the values must
-/// be the same.
-enum class Weight { none, of_files, always };
+/// what input files say, from which the command line that made it may have departed; of_command: which may
+/// not, but what the program itself has set may; always: the values must be the same.
+enum class Weight { none, of_files, of_command, always };
 
 /// An option, or a file that one names, that differs.
 struct InputDifference {
   std::string name, there, here;  ///< option; values with units, in the provenance and in force
-  bool allowed = false;           ///< another command line alone makes it
+  bool allowed = false;           ///< another command line, or the program, alone makes it
+  bool of_command_line = false;   ///< the command line that made the file said it
 };
 
 /// All options of some weight whose values differ.

@@ -220,7 +220,9 @@ void Options::note_overrides() {
   for (const auto& [name, value] : given_) {
     const auto written = written_.find(name);
     const std::string in_files = written == written_.end() ? "" : in_own_unit(name, written->second);
-    if (written == written_.end() || in_files != value) in_files_[name] = in_files;
+    if (written != written_.end() && in_files == value) continue;
+    in_files_[name] = in_files;
+    on_command_line_.insert(name);
   }
 }
 
@@ -390,6 +392,8 @@ void Options::take(const std::string& own, const Options& from, const std::strin
   place_.erase(own);
   in_files_.erase(own);
   by_default_.erase(own);
+  from.on_command_line_.contains(name) ? void(on_command_line_.insert(own))
+                                       : void(on_command_line_.erase(own));
   if (const auto place = from.place_.find(name); place != from.place_.end()) place_[own] = place->second;
   if (const auto other = from.in_files_.find(name); other != from.in_files_.end())
     in_files_[own] = other->second;
@@ -463,6 +467,7 @@ std::map<std::string, std::string> Options::provenance() const {
       all["option_" + s.name] = s.default_value;
   for (const auto& [name, value] : given_) all["option_" + name] = value;
   for (const auto& [name, value] : in_files_) all["in_files_" + name] = value;
+  for (const std::string& name : on_command_line_) all["command_line_" + name] = given_.at(name);
   char petsc[256], slepc[256];
   check(PetscGetVersion(petsc, sizeof petsc));
   check(SlepcGetVersion(slepc, sizeof slepc));

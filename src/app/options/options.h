@@ -84,8 +84,8 @@ class Options {
   void append(const std::string& name, const std::string& word);
 
   /// Everything in force, defaults included ("option_torque"), what files say of options that have another
-  /// value ("in_files_torque", empty where they say nothing), and the versions of the program and its
-  /// libraries.
+  /// value ("in_files_torque", empty where they say nothing), which of these are of the command line
+  /// ("command_line_torque"), and the versions of the program and its libraries.
   std::map<std::string, std::string> provenance() const;
   /// Is the value another one than that of the files, by the command line or a case of a sweep?
   bool overrides_files(const std::string& name) const;
@@ -132,6 +132,7 @@ class Options {
   std::map<std::string, std::string> written_;   // by files and texts
   std::map<std::string, std::string> in_files_;  // of options whose value is another one; empty: none
   std::set<std::string> by_default_;             // of in_files_, those that set_default() has set
+  std::set<std::string> on_command_line_;        // of in_files_ as options are loaded
   std::vector<std::string> files_;
 };
 

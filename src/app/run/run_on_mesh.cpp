@@ -49,29 +49,30 @@ void require_all_bodies(const Options& options, const Drive& drive) {
     require(fs::is_regular_file(file), file, ": is not there");
     require_modes(file, options);
   }
-  require_bodies(options, drive);
+  require_bodies(options, drive, CommandLines::present);
 }
 
 Options evaluate_with_files(const RunOnMesh& of) {
   return with_evaluation(with_gears(of.evaluate), of.folder);
 }
 
-// The result of this input.
-std::vector<Case> require_cases(const Options& of_evaluate) {
-  const std::string result = of_evaluate.text("result");
+// The result of this input, on which no command line has left a mark that this one does not leave.
+std::vector<Case> require_cases(const RunOnMesh& of) {
+  const std::string result = evaluate_with_files(of).text("result");
+  const Options of_simulate = with_gears(of.simulate);
   require(fs::exists(result), result, ": is not there");
   std::vector<Case> cases = read_cases(result);
-  for (const Case& of : cases) {
-    require(io::is_complete(of.file), of.file, ": is not complete");
-    require_input(of_evaluate, of.file);
+  for (const Case& one : cases) {
+    require(io::is_complete(one.file), one.file, ": is not complete");
+    require_input(of_simulate, one.file, CommandLines::present);
   }
   return cases;
 }
 
 // The same, with the bodies as they are.
-void require_results(const Options& of_evaluate) {
-  for (const Case& of : require_cases(of_evaluate))
-    for (const recovery::BodyOfRun& body : recovery::read_bodies_of_run(of.file))
+void require_results(const RunOnMesh& of) {
+  for (const Case& one : require_cases(of))
+    for (const recovery::BodyOfRun& body : recovery::read_bodies_of_run(one.file))
       recovery::read_elastic_body(body);  // throws for another one
 }
 
@@ -128,8 +129,8 @@ bool has_evaluation(const RunOnMesh& of) {
            const Options options = evaluate_with_files(of);
            const std::string file = options.text("output");
            require(fs::exists(file), file, ": is not there");
-           require_cases(options);
-           require_input(options, file);
+           require_cases(of);
+           require_input(options, file, CommandLines::present);
          })
       .empty();
 }
@@ -158,7 +159,7 @@ void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string
   } else {
     print_item("reduce", "the bodies are there");
   }
-  const auto require_them = [&] { require_results(evaluate_with_files(of)); };
+  const auto require_them = [&] { require_results(of); };
   if (const std::string cause = why_on_rank_0(require_them); !cause.empty()) {
     print_item("simulate", cause);
     simulate_verb().run(of.simulate, {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "app/console/console.h"
 #include "app/gear/cylindrical_options.h"
@@ -87,16 +88,23 @@ std::string as_options(const std::vector<InputDifference>& differences) {
   return text;
 }
 
-// A command line of reduce that departs from the drive file is not forgotten.
-void print_departures(const std::string& body, const std::vector<InputDifference>& differences) {
+// Of those that a comparison has allowed, but for `left_out`.
+std::string departures_text(const std::vector<InputDifference>& differences,
+                            const std::string& left_out = "") {
   std::string text;
   for (const InputDifference& d : differences)
-    if (d.allowed) text += (text.empty() ? "" : "; ") + d.name + " " + d.there + " for " + d.here;
-  if (!text.empty())
-    print_item("body " + body, "by the command line of reduce " + text + " of the drive file");
+    if (d.allowed && d.name != left_out)
+      text += (text.empty() ? "" : "; ") + d.name + " " + d.there + " for " + d.here;
+  return text;
 }
 
-void require_body(const Options& of_reduce, const DriveMember& member) {
+// Modes serve equilibria that need none, and meshes have folders of their own.
+bool is_chosen_by_run(const std::string& name) {
+  constexpr const char* kChosen[] = {"refinement", "modes", "eps_nev", "eps_interval"};
+  return std::find(std::begin(kChosen), std::end(kChosen), name) != std::end(kChosen);
+}
+
+void require_body(const Options& of_reduce, const DriveMember& member, CommandLines may_depart) {
   const std::string file = body_file(of_reduce, member);
   if (!is_file(file)) return;  // reading it says what is missing
   const Provenance provenance = io::read_provenance(file);
@@ -106,33 +114,48 @@ void require_body(const Options& of_reduce, const DriveMember& member) {
     return input_differences(member_options(of_reduce, member), provenance, [&](const std::string& name) {
       // simulate takes damping of the gear's own section in place of the body's.
       const bool replaced = name.starts_with("damping_") && of_reduce.given(member.name + "_" + name);
-      return replaced ? Weight::none : weight_for_bodies(name);
+      const Weight weight = replaced ? Weight::none : weight_for_bodies(name);
+      const bool counts = may_depart == CommandLines::present && !is_chosen_by_run(name);
+      return counts && weight == Weight::of_files ? Weight::of_command : weight;
     });
   }();
-  const std::string refused = refused_text(differences);
+  const std::string refused = refused_text(differences), departed = departures_text(differences);
   require(refused.empty(), file, ": is not the body of ", member.name, " in this drive: ", refused,
           ". Make it anew by '", command_of(of_reduce, "reduce"),
           "', or give the drive what the body was made of");
-  print_departures(member.name, differences);
+  // A command line of reduce that departs from the drive file is not forgotten.
+  if (!departed.empty())
+    print_item("body " + member.name, "by the command line of reduce " + departed + " of the drive file");
+}
+
+// Of a result or of what was recovered of it.
+std::vector<InputDifference> differences_of_result(const Options& options, const Provenance& provenance,
+                                                   CommandLines may_depart) {
+  const Options of_simulate = options.of_verb("simulate", simulate_verb().table);
+  const bool present = may_depart == CommandLines::present;
+  return input_differences(of_simulate, provenance, [&](const std::string& name) {
+    const bool places_flanks = name == "side" && options.verb() == "evaluate";
+    if (places_flanks || (present && name == "analysis")) return Weight::always;
+    const Weight weight = weight_for_results(of_simulate, name);
+    return present && weight == Weight::of_files && !is_chosen_by_run(name) ? Weight::of_command : weight;
+  });
 }
 
 }  // namespace
 
-void require_bodies(const Options& options, const Drive& drive) {
+void require_bodies(const Options& options, const Drive& drive, CommandLines may_depart) {
   const Options of_reduce = options.of_verb("reduce", reduce_verb().table);
-  for (const DriveMember& member : drive.members) require_body(of_reduce, member);
+  for (const DriveMember& member : drive.members) require_body(of_reduce, member, may_depart);
 }
 
 std::string differing_option(const std::string& body, const std::string& other) {
   const auto all = io::read_provenance(body), of_other = io::read_provenance(other);
   const auto differs = [](const Provenance& here, const Provenance& there) -> std::string {
-    constexpr const char *kPrefix = "option_", *kFree[] = {"refinement", "modes", "eps_nev", "eps_interval"};
+    constexpr const char* kPrefix = "option_";
     for (const auto& [key, value] : here) {
       if (!key.starts_with(kPrefix)) continue;
       const std::string name = key.substr(std::strlen(kPrefix));
-      if (weight_for_bodies(name) == Weight::none ||
-          std::find(std::begin(kFree), std::end(kFree), name) != std::end(kFree))
-        continue;
+      if (weight_for_bodies(name) == Weight::none || is_chosen_by_run(name)) continue;
       const auto found = there.find(key);
       if (found == there.end() || found->second != value) return name;
     }
@@ -142,18 +165,32 @@ std::string differing_option(const std::string& body, const std::string& other) 
   return name.empty() ? differs(of_other, all) : name;
 }
 
-void require_input(const Options& options, const std::string& file) {
+void require_input(const Options& options, const std::string& file, CommandLines may_depart) {
   const Provenance provenance = io::read_provenance(file);
   if (!is_of_a_drive(provenance)) return;
-  const Options of_simulate = options.of_verb("simulate", simulate_verb().table);
-  const auto differences = input_differences(of_simulate, provenance, [&](const std::string& name) {
-    const bool places_flanks = name == "side" && options.verb() == "evaluate";
-    return places_flanks ? Weight::always : weight_for_results(of_simulate, name);
-  });
+  const auto differences = differences_of_result(options, provenance, may_depart);
   const std::string refused = refused_text(differences), given = as_options(differences);
-  require(refused.empty(), file, ": is not that of the run that this drive describes: ", refused,
-          ". Make it anew by '", command_of(options, "simulate"), "', after reduce where bodies differ",
-          given.empty() ? "" : ", or give " + options.verb() + " the option" + given);
+  if (refused.empty()) return;
+  if (may_depart == CommandLines::present) fail(file, ": ", refused);
+  const auto analysis = provenance.find("option_analysis");
+  const bool is_sweep = analysis != provenance.end() && analysis->second == "sweep";
+  fail(file, ": is not that of the run that this drive describes: ", refused, ". Make it anew by '",
+       command_of(options, is_sweep ? "run" : "simulate"), "'",
+       is_sweep ? "" : ", after reduce where bodies differ",
+       given.empty() ? "" : ", or give " + options.verb() + " the option" + given);
+}
+
+void print_departures(const Options& options, const std::vector<std::string>& files) {
+  std::set<std::string> said;
+  for (const std::string& file : files) {
+    const Provenance provenance = io::read_provenance(file);
+    if (!is_of_a_drive(provenance)) continue;
+    auto differences = differences_of_result(options, provenance, CommandLines::any);
+    std::erase_if(differences, [](const InputDifference& d) { return !d.of_command_line; });
+    const std::string text = departures_text(differences, "analysis");
+    if (!text.empty() && said.insert(text).second)
+      print_item("result", "by the command line of simulate " + text + " of the drive file");
+  }
 }
 
 }  // namespace elastogear::app

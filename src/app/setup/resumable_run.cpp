@@ -16,8 +16,8 @@ namespace {
 // Options on which results do not depend, and parts of the names of others and of entries of the provenance.
 const std::vector<std::string> kWithoutEffect = {"output",       "checkpoint_every", "resume", "sensor_csv",
                                                  "ts_max_steps", "drawing",          "mesh",   "verbose"},
-                               kPartsWithoutEffect = {"monitor", "_view", "option_log_", "in_files_",
-                                                      "_mesh_output"};
+                               kPartsWithoutEffect = {"monitor",   "_view",         "option_log_",
+                                                      "in_files_", "command_line_", "_mesh_output"};
 
 volatile std::sig_atomic_t stop_signal = 0;
 

@@ -54,10 +54,14 @@ struct Evaluated {
   CaseFigures figures;
   std::vector<evaluation::PairEvaluation> pairs;
   std::vector<double> width;  // m
+  std::vector<bool> touches;  // of each pair, at all positions
   Eigen::VectorXd roll;
 };
 
 std::string no_orders(const evaluation::PairOfRun& run) {
+  if (run.time.size() == 0 && run.roll.size() == 1)
+    return ": one roll angle alone: nothing here is the largest over a mesh; 'elastogear run' rolls over a "
+           "pitch";
   return run.time.size() > 0
              ? ": no orders: the gears do not roll on over at least two pitches in this span of time"
              : ": no orders: the roll angles are not even positions that fill whole pitches";
@@ -123,8 +127,9 @@ Evaluated evaluate_case(const Task& task, drive::BodyFiles& bodies, const Case& 
   drive::DriveRun run = drive::read_result(task.drive, task.settings.read, result, bodies, unloaded);
   warn_of_roots(task, result, run);
   if (!unloaded.empty()) require_unloaded(task.options, of_case);
-  Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
+  Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, {}, run.pairs[0].run.roll};
   for (const drive::NamedPair& pair : run.pairs) {
+    evaluated.touches.push_back(drive::touches_always(pair.run));
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
     evaluated.width.push_back(evaluation::common_width(pair.run));
     evaluated.figures.pairs.push_back({pair.name, evaluated.pairs.back().items});
@@ -167,6 +172,16 @@ const Evaluated* other_load(const std::vector<Evaluated>& cases, const Evaluated
   return best;
 }
 
+// Gears apart stand anywhere: their transmission error is none. Says where that is so.
+bool both_touch(Evaluated& of, const Evaluated& other, std::size_t pair) {
+  if (of.touches[pair] && other.touches[pair]) return true;
+  const Evaluated& apart = of.touches[pair] ? other : of;
+  of.figures.notes.push_back(of.figures.pairs[pair].pair + ": no stiffness against the case " +
+                             other.figures.of.name + ": it does not touch at some position of the case " +
+                             apart.figures.of.name);
+  return false;
+}
+
 void append(const std::vector<io::EvaluationItem>& items, PairFigures& pair) {
   pair.items.insert(pair.items.end(), items.begin(), items.end());
 }
@@ -177,7 +192,8 @@ void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
       other_load(cases, of, [](double torque, double other) { return std::abs(torque - other); });
   if (!next) return;
   for (std::size_t p = 0; p < of.pairs.size(); ++p)
-    append(evaluation::tangent_stiffness(of.pairs[p], next->pairs[p], of.width[p]), of.figures.pairs[p]);
+    if (both_touch(of, *next, p))
+      append(evaluation::tangent_stiffness(of.pairs[p], next->pairs[p], of.width[p]), of.figures.pairs[p]);
   of.figures.notes.push_back("tangent stiffness against the case " + next->figures.of.name);
 }
 
@@ -188,7 +204,7 @@ void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
   const double torque = std::abs(number_in_column(of.figures.of, "torque"));
   if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kLeastTorque * torque) return;
   for (std::size_t p = 0; p < of.pairs.size(); ++p)
-    if (!find_item(of.figures.pairs[p].items, "transmission_error/unloaded"))
+    if (!find_item(of.figures.pairs[p].items, "transmission_error/unloaded") && both_touch(of, *least, p))
       append(evaluation::unloaded_items(of.pairs[p], least->pairs[p].error, of.width[p]),
              of.figures.pairs[p]);
 }
@@ -358,6 +374,9 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
   std::vector<CaseFigures> figures;
   for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
   add_mesh_errors(settings.coarser, options.positive("refinement"), figures);
+  std::vector<std::string> files;
+  for (const Case& of_case : all) files.push_back(of_case.file);
+  print_departures(options, files);
   print_all(task, figures);
   write_all(options, settings, figures);
 }

@@ -7,6 +7,7 @@
 #include "app/gear/drive_options.h"
 #include "app/life/life_of_set.h"
 #include "app/options/verbs.h"
+#include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
@@ -14,18 +15,10 @@
 namespace elastogear::app {
 namespace {
 
-// Deviations that differ from tooth to tooth.
-bool teeth_differ(const DriveMember& member) {
-  if (!member.deviations) return false;
-  const gear::FlankDeviations& d = *member.deviations;
-  return d.index.any() || d.eccentricity.any() ||
-         std::any_of(d.topography.begin(), d.topography.end(), [](const auto& t) { return t.tooth >= 0; });
-}
-
 void refuse_different_teeth(const Drive& drive, const std::string& file, const life::Revolutions& r) {
   if (!r.laid) return;
   for (const DriveMember& member : drive.members)
-    require(!teeth_differ(member), file, ": teeth of ", member.name,
+    require(!member.deviations || !gear::teeth_differ(*member.deviations), file, ": teeth of ", member.name,
             " differ (pitch_deviation, run_out or topography), and this sweep does not go over whole "
             "revolutions: the load of one tooth is not that of the next one; sweep with sweep_pitches: "
             "hunting");
@@ -146,6 +139,9 @@ void run_life(const Options& given, const std::vector<std::string>&) {
   warn_of_strengths(options, drive);
   LifeReport report{duty_cycle(options), swept_torques(options, settings), {}};
   protect_inputs(options, drive, settings, report.swept);
+  std::vector<std::string> files;
+  for (const SweptTorque& at : report.swept) files.push_back(at.file);
+  print_departures(options, files);
   const OutputLock lock(settings.output);
   std::vector<double> torques;
   for (const SweptTorque& at : report.swept) torques.push_back(at.torque);

@@ -239,6 +239,7 @@ Options of_run(const Options& given) {
   if (!is_drive(options)) return options;
   const Options all = with_recovery(options, read_drive(options));
   require_input(options, all.text("result"));
+  print_departures(options, {all.text("result")});
   return all;
 }
 
