@@ -96,7 +96,9 @@ PairOfRun read_pair(const DriveOfResults& of, const DriveResult& result,
   pair.first_teeth = of.drive.members.front().toothing.z;
   pair.sense = of.coasts ? -1 : 1;
   pair.turning = result.analysis == Analysis::sweep ? 1 : pair.sense;
-  pair.speed = std::abs(input_of(result).speed);
+  const bool takes_speed =
+      result.analysis != Analysis::motion && of_pair.friction == 0 && of.speed.has_value();
+  pair.speed = std::abs(takes_speed ? *of.speed : input_of(result).speed);
   pair.strips = of_pair.strips;
   pair.friction = of_pair.friction;
   read_times(result, of_pair, flanks, pair);

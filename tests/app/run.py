@@ -168,6 +168,9 @@ def main():
         assert "one roll angle alone" in run("evaluate", "drive.yaml")
         assert made(run("drive.yaml")) == (False, True)
         assert figures() == first
+        # A speed moves nothing at rest without friction; what is read off takes it.
+        write(speed="100 rad/s")
+        assert made(run("drive.yaml")) == (False, False)
         write(torque="40 N m")
         assert made(run("drive.yaml")) == (False, True)
         assert figures() != first

@@ -39,6 +39,8 @@ struct DriveOfResults {
   bool coasts = false;                                ///< as the drive's Start
   std::vector<std::vector<Bearing>> bearings = {};    ///< as its Operation
   std::map<std::string, std::string> body_file = {};  ///< by body, where a result names another place
+  std::optional<double> speed =
+      {};  ///< rad/s, of the first gear, for equilibria without friction: they have none
 };
 
 /// What is read off a result besides contact.

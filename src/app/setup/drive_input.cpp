@@ -128,6 +128,21 @@ void require_body(const Options& of_reduce, const DriveMember& member, CommandLi
     print_item("body " + member.name, "by the command line of reduce " + departed + " of the drive file");
 }
 
+// At rest a speed moves nothing but friction, which it is the measure of, and torques win over the files'
+// torque.
+bool is_idle(const Options& of_simulate, const Provenance& then, const std::string& name) {
+  const auto value = [&](const std::string& option) {
+    const auto found = then.find("option_" + option);
+    return found == then.end() ? std::string() : found->second;
+  };
+  if (name == "torque")
+    return of_simulate.given("torques") && !of_simulate.overrides_files("torque") &&
+           !value("torques").empty();
+  const bool at_rest = value("analysis") == "sweep" || value("analysis") == "static";
+  return name == "speed" && at_rest && parse<double>(value("contact_friction")).value_or(0) == 0 &&
+         of_simulate.number("contact_friction") == 0;
+}
+
 // Of a result or of what was recovered of it.
 std::vector<InputDifference> differences_of_result(const Options& options, const Provenance& provenance,
                                                    CommandLines may_depart) {
@@ -136,6 +151,7 @@ std::vector<InputDifference> differences_of_result(const Options& options, const
   return input_differences(of_simulate, provenance, [&](const std::string& name) {
     const bool places_flanks = name == "side" && options.verb() == "evaluate";
     if (places_flanks || (present && name == "analysis")) return Weight::always;
+    if (is_idle(of_simulate, provenance, name)) return Weight::none;
     const Weight weight = weight_for_results(of_simulate, name);
     return present && weight == Weight::of_files && !is_chosen_by_run(name) ? Weight::of_command : weight;
   });

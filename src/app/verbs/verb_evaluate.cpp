@@ -344,6 +344,7 @@ Task task_of(const Options& options) {
   for (const DriveMember& member : task.drive.drive.members)
     task.drive.bearings.push_back(bearings(options, member));
   task.drive.body_file = task.settings.body_file;
+  if (options.given("speed")) task.drive.speed = options.number("speed");
   return task;
 }
 

@@ -224,12 +224,21 @@ bool load_anew(Leader& leader, double position) {
   return false;
 }
 
+// Goes on from the last position; false where that leads nowhere.
+bool is_led(Leader& leader, double position) {
+  try {
+    return leader.sweep && go_on(*leader.sweep, position, leader.summary.run);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 // Finds the equilibrium of a position and enters it; false where there is none.
 bool find(Leader& leader, double position, model::Snapshot& found) {
   RunSummary& run = leader.summary.run;
   const bool was_led = leader.sweep != nullptr;
   const double lost = was_led ? leader.sweep->system.contact_loss() : 0;
-  const bool led = was_led && go_on(*leader.sweep, position, run);
+  const bool led = is_led(leader, position);
   if (!led) {
     leader.ledger.lost_before += lost;
     if (!load_anew(leader, position)) return false;
