@@ -179,6 +179,10 @@ def main():
         write()
         assert made(run("drive.yaml", ranks=2)) == (True, True)
         assert made(run("drive.yaml")) == (False, False)
+        # A result as former versions of the program left it cannot be evaluated.
+        with h5py.File("drive_result.h5", "r+") as file:
+            del file["provenance/run"]
+        assert made(run("drive.yaml")) == (False, True)
         # Bodies that were made anew by their own verb have another result.
         run("reduce", "drive.yaml", "-modes", "8")
         assert made(run("drive.yaml")) == (False, True)

@@ -64,6 +64,7 @@ std::vector<Case> require_cases(const RunOnMesh& of) {
   std::vector<Case> cases = read_cases(result);
   for (const Case& one : cases) {
     require(io::is_complete(one.file), one.file, ": is not complete");
+    require(io::read_run_input(one.file).has_value(), one.file, ": does not say what its run was asked for");
     require_input(of_simulate, one.file, CommandLines::present);
   }
   return cases;
