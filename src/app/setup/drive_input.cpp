@@ -189,10 +189,11 @@ void require_input(const Options& options, const std::string& file, CommandLines
   if (refused.empty()) return;
   if (may_depart == CommandLines::present) fail(file, ": ", refused);
   const auto analysis = provenance.find("option_analysis");
-  const bool is_sweep = analysis != provenance.end() && analysis->second == "sweep";
+  const bool sweeps =
+      analysis != provenance.end() && analysis->second == "sweep" && !options.given("analysis");
   fail(file, ": is not that of the run that this drive describes: ", refused, ". Make it anew by '",
-       command_of(options, is_sweep ? "run" : "simulate"), "'",
-       is_sweep ? "" : ", after reduce where bodies differ",
+       command_of(options, "simulate"), sweeps ? " -analysis sweep" : "",
+       "', after reduce where bodies differ",
        given.empty() ? "" : ", or give " + options.verb() + " the option" + given);
 }
 
