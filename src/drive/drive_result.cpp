@@ -15,9 +15,12 @@ namespace {
 
 Analysis analysis_of(const std::string& path, const std::optional<model::RunInput>& input) {
   const bool serves = input && input->analysis != Analysis::relaxation;
-  require(serves, path, ": is the result of analysis: ",
-          input ? model::analysis_names()[static_cast<std::size_t>(input->analysis)] : "unknown",
-          "; evaluate reads those of sweep, static and dynamic");
+  require(
+      serves, path, ": is the result of analysis: ",
+      input ? model::analysis_names()[static_cast<std::size_t>(input->analysis)] : "unknown",
+      "; evaluate reads those of sweep, static and dynamic",
+      input ? ""
+            : "; a former version of the program does not say it: make the result anew by 'elastogear run'");
   return input->analysis;
 }
 
@@ -60,7 +63,7 @@ void set_unloaded(const DriveResult& result, const TransmissionErrors& unloaded,
   }
 }
 
-// Of gears with teeth that a sweep does not reach.
+// Notes the gears whose teeth differ and are not all in mesh over a sweep.
 void note_other_teeth(const DriveOfResults& of, const evaluation::PairOfRun& pair,
                       std::vector<std::string>& notes) {
   const double rolled = pair.roll.size() > 1 ? pair.roll.maxCoeff() - pair.roll.minCoeff() : 0,

@@ -1,4 +1,4 @@
-// What is read off a result file of a drive is what the sweep that wrote it has returned.
+// A result file of a drive gives back the pairs of gears that the sweep which wrote it has returned.
 
 #include "elastogear/drive/drive_result.h"
 

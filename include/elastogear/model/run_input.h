@@ -1,5 +1,6 @@
 #pragma once
-// What a run was asked to compute, as far as those who read its files need it. SI units.
+// The input of a run that its result and stress files keep for evaluation, fatigue life and time axes. SI
+// units.
 
 #include <optional>
 #include <string>

@@ -88,7 +88,8 @@ std::string as_options(const std::vector<InputDifference>& differences) {
   return text;
 }
 
-// Of those that a comparison has allowed, but for `left_out`.
+// "torque 200 N m for 300 N m": input differences that a comparison has allowed, without the option
+// `left_out`.
 std::string departures_text(const std::vector<InputDifference>& differences,
                             const std::string& left_out = "") {
   std::string text;
@@ -143,7 +144,7 @@ bool is_idle(const Options& of_simulate, const Provenance& then, const std::stri
          of_simulate.number("contact_friction") == 0;
 }
 
-// Of a result or of what was recovered of it.
+// Input differences between a result file, or what was recovered of it, and the options in force.
 std::vector<InputDifference> differences_of_result(const Options& options, const Provenance& provenance,
                                                    CommandLines may_depart) {
   const Options of_simulate = options.of_verb("simulate", simulate_verb().table);

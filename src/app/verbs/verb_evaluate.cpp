@@ -172,7 +172,7 @@ const Evaluated* other_load(const std::vector<Evaluated>& cases, const Evaluated
   return best;
 }
 
-// Gears apart stand anywhere: their transmission error is none. Says where that is so.
+// Gears that do not touch stand at any angle and have no transmission error. Notes the case of such a pair.
 bool both_touch(Evaluated& of, const Evaluated& other, std::size_t pair) {
   if (of.touches[pair] && other.touches[pair]) return true;
   const Evaluated& apart = of.touches[pair] ? other : of;
